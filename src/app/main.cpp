@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <new>
+
+#include "app/commands.hpp"
+#include "app/external_command.hpp"
+#include "io/error.hpp"
+
+namespace {
+
+constexpr int kBadInput = 1;
+constexpr int kBadUsage = 2;
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace lego_loam_sc;
+  spdlog::set_pattern("lego-loam-sc: %v");
+
+  CLI::App app{"LiDAR-only SLAM: LeGO-LOAM with Scan Context loops."};
+  app.set_version_flag("--version", LEGO_LOAM_SC_VERSION);
+  app.require_subcommand(1);
+  int exit_code = 0;
+  add_run(app, exit_code);
+  add_simulate(app);
+  add_match(app);
+  add_evaluate(app);
+  add_config(app);
+  app.footer("Any other verb runs lego-loam-sc-VERB from PATH.");
+
+  if (argc > 1 && !is_known_verb(app, argv[1])) run_external(argv);  // returns when there is none
+  try {
+    app.parse(argc, argv);
+    return exit_code;
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kBadUsage;
+  } catch (const InputError& error) {
+    spdlog::error("{}", error.what());
+  } catch (const std::bad_alloc&) {
+    spdlog::error("there is not enough memory; process fewer scans with --count");
+  } catch (const std::exception& error) {
+    spdlog::error("internal error: {}", error.what());
+  }
+  return kBadInput;
+}

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/result_writer.hpp"
+
+#include <sys/resource.h>
+
+#include <Eigen/LU>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "eval/association.hpp"
+#include "eval/error_report.hpp"
+#include "io/atomic_file.hpp"
+#include "io/cloud_writer.hpp"
+#include "io/g2o.hpp"
+#include "io/sensor_yaml.hpp"
+#include "io/settings_yaml.hpp"
+#include "io/text.hpp"
+#include "io/trajectory.hpp"
+#include "slam/map_cloud.hpp"
+
+namespace lego_loam_sc {
+namespace {
+
+constexpr const char* kScansHeader =
+    "scan,stamp,status,points,ground_points,segment_points,clusters,edges_sharp,planars_flat,"
+    "edges_large,planars_large,odometry_edges,odometry_planars,odometry_iterations,map_points,"
+    "map_matches,map_iterations,map_rmse_m,degenerate_translations,degenerate_rotations,"
+    "translation_strength,rotation_strength,key_frame,corrected,projection_ms,segmentation_ms,"
+    "features_ms,odometry_ms,mapping_ms,loops_ms\n";
+
+constexpr const char* kLoopsHeader =
+    "query,match,query_scan,match_scan,detector,distance,yaw_deg,overlap,rmse_m,x,y,z,roll_deg,"
+    "pitch_deg,loop_yaw_deg,verdict\n";
+
+// Fields of one line of a CSV file.
+class CsvLine {
+ public:
+  CsvLine& operator<<(std::string_view text) {
+    if (!line_.empty()) line_ += ',';
+    line_ += text;
+    return *this;
+  }
+  CsvLine& operator<<(const std::string& text) { return *this << std::string_view(text); }
+  CsvLine& operator<<(int value) { return *this << std::to_string(value); }
+  CsvLine& operator<<(std::size_t value) { return *this << std::to_string(value); }
+
+  std::string text() const { return line_ + "\n"; }
+
+ private:
+  std::string line_;
+};
+
+std::string scan_line(const ScanReport& r) {
+  CsvLine line;
+  line << r.index << to_seconds(r.stamp_ns) << to_string(r.status) << r.points << r.ground_points
+       << r.segment_points << r.clusters << r.edges_sharp << r.planars_flat << r.edges_large
+       << r.planars_large << r.odometry_edges << r.odometry_planars << r.odometry_iterations
+       << r.map_points << r.map_matches << r.map_iterations << to_fixed(r.map_rmse, 4)
+       << r.degenerate_translations << r.degenerate_rotations
+       << to_fixed(r.least_translation_strength, 1) << to_fixed(r.least_rotation_strength, 1)
+       << r.key_frame << (r.corrected ? 1 : 0);
+  for (const double milliseconds : r.milliseconds) line << to_fixed(milliseconds, 3);
+  return line.text();
+}
+
+std::string loop_line(const LoopReport& r) {
+  const LoopVerification& v = r.verification;
+  const Eigen::Vector3d t = v.T_match_query.translation();
+  const Eigen::Vector3d rpy = rpy_from_rotation(v.T_match_query.linear());
+  CsvLine line;
+  line << r.candidate.query << r.candidate.match << r.query_scan << r.match_scan
+       << to_string(r.candidate.detector) << to_fixed(r.candidate.distance, 4)
+       << to_fixed(degrees(r.candidate.yaw), 2) << to_fixed(v.overlap, 3) << to_fixed(v.rmse, 4)
+       << to_fixed(t.x(), 4) << to_fixed(t.y(), 4) << to_fixed(t.z(), 4)
+       << to_fixed(degrees(rpy.x()), 3) << to_fixed(degrees(rpy.y()), 3)
+       << to_fixed(degrees(rpy.z()), 3) << to_string(v.verdict);
+  return line.text();
+}
+
+void write_graph(const std::filesystem::path& path, const PoseGraph& graph) {
+  std::vector<G2oVertex> vertices;
+  for (std::size_t k = 0; k < graph.size(); ++k)
+    vertices.push_back({static_cast<int>(k), graph.poses()[k]});
+  std::vector<G2oEdge> edges;
+  for (const auto* list : {&graph.odometry_edges(), &graph.loop_edges()})
+    for (const PoseEdge& edge : *list)
+      edges.push_back({edge.from, edge.to, edge.T_from_to, edge.covariance.inverse()});
+  write_g2o(path, vertices, edges);
+}
+
+double path_length(const Trajectory& trajectory) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < trajectory.size(); ++i)
+    length += (trajectory[i].pose.translation() - trajectory[i - 1].pose.translation()).norm();
+  return length;
+}
+
+struct Resources {
+  double cpu_seconds;
+  double peak_megabytes;
+};
+
+Resources used_resources() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return {seconds(usage.ru_utime) + seconds(usage.ru_stime),
+          static_cast<double>(usage.ru_maxrss) / 1024.0};
+}
+
+nlohmann::ordered_json errors_against(const std::filesystem::path& truth,
+                                      const Trajectory& odometry, const Trajectory& trajectory) {
+  const PoseFile file = read_poses(truth);
+  nlohmann::ordered_json errors;
+  errors["truth"] = truth.string();
+  errors["trajectory"] = to_json(evaluate(associate(file, {trajectory, true})));
+  errors["odometry"] = to_json(evaluate(associate(file, {odometry, true})));
+  return errors;
+}
+
+}  // namespace
+
+ResultWriter::ResultWriter(std::filesystem::path folder, const SensorModel& sensor,
+                           const Settings& settings)
+    : folder_(std::move(folder)),
+      settings_(settings),
+      scans_(folder_ / "scans.csv"),
+      loops_(folder_ / "loops.csv"),
+      odometry_(folder_ / "odometry.tum") {
+  write_file(folder_ / "settings.yaml", to_yaml(settings));
+  write_file(folder_ / "sensor.yaml", to_yaml(sensor));
+  scans_.append(kScansHeader);
+  loops_.append(kLoopsHeader);
+}
+
+void ResultWriter::add(const ScanReport& report) {
+  scans_.append(scan_line(report));
+  if (report.status != Status::out_of_order)
+    odometry_.append(tum_line({report.stamp_ns, report.T_odom_lidar}));
+  for (const LoopReport& loop : report.loops) {
+    loops_.append(loop_line(loop));
+    ++(loop.verification.verdict == Verdict::accepted ? accepted_loops_ : refused_loops_);
+  }
+  ++scan_count_;
+  ++statuses_[std::string(to_string(report.status))];
+}
+
+std::string ResultWriter::finish(const Slam& slam, const DatasetFacts& dataset,
+                                 const RunFacts& facts) {
+  const Trajectory trajectory = slam.trajectory();
+  write_tum(folder_ / "trajectory.tum", trajectory);
+  write_kitti(folder_ / "trajectory_kitti.txt", trajectory, dataset.T_camera_lidar);
+  write_graph(folder_ / "graph.g2o", slam.graph());
+  const std::vector<Eigen::Vector4f> map =
+      make_map(slam.key_frames(), slam.graph().poses(), settings_.output.map_voxel_size);
+  write_ply(folder_ / "map.ply", map);
+  write_pcd(folder_ / "map.pcd", map);
+
+  const double length = path_length(trajectory);
+  const Resources resources = used_resources();
+  nlohmann::ordered_json summary = {
+      {"input", facts.input},
+      {"method", facts.method},
+      {"sensor", facts.sensor},
+      {"sensor_height_m", slam.sensor_height()},
+      {"scans", scan_count_},
+      {"status", statuses_},
+      {"key_frames", slam.key_frames().size()},
+      {"loops_accepted", accepted_loops_},
+      {"loops_refused", refused_loops_},
+      {"path_length_m", length},
+      {"map_points", map.size()},
+      {"interrupted", facts.interrupted},
+      {"faults", facts.faults},
+      {"timing",
+       {{"threads", facts.threads},
+        {"wall_seconds", facts.wall_seconds},
+        {"cpu_seconds", resources.cpu_seconds},
+        {"cpu_ms_per_scan", scan_count_ > 0 ? 1e3 * resources.cpu_seconds / static_cast<double>(scan_count_) : 0.0},
+        {"peak_memory_mb", resources.peak_megabytes}}}};
+  char text[512];
+  std::snprintf(text, sizeof text,
+                "%zu scans, %.1f m, %zu key frames, %zu loops, %zu map points\n"
+                "%.1f s wall, %.1f s CPU (%.1f ms per scan), %.0f MB\n",
+                scan_count_, length, slam.key_frames().size(), accepted_loops_, map.size(),
+                facts.wall_seconds, resources.cpu_seconds,
+                scan_count_ > 0 ? 1e3 * resources.cpu_seconds / static_cast<double>(scan_count_)
+                                : 0.0,
+                resources.peak_megabytes);
+  std::string report = text;
+  for (const auto& [status, count] : statuses_)
+    if (status != to_string(Status::ok)) report += std::to_string(count) + " scans " + status + "\n";
+  if (facts.truth) {
+    summary["errors"] = errors_against(*facts.truth, slam.odometry(), trajectory);
+    const auto& errors = summary["errors"]["trajectory"];
+    report += "against truth: " + errors.dump() + "\n";
+  }
+  write_file(folder_ / "summary.json", summary.dump(2) + "\n");
+  return report;
+}
+
+}  // namespace lego_loam_sc

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/sensor_model.hpp"
+#include "core/settings.hpp"
+#include "io/append_file.hpp"
+#include "io/dataset_facts.hpp"
+#include "slam/report.hpp"
+#include "slam/slam.hpp"
+
+namespace lego_loam_sc {
+
+/// What `summary.json` says of the run besides what the SLAM knows.
+struct RunFacts {
+  std::string input;
+  std::string method;
+  std::string sensor;
+  int threads = 1;
+  double wall_seconds = 0.0;
+  bool interrupted = false;
+  std::vector<std::string> faults;  ///< of the input, a sentence each
+  std::optional<std::filesystem::path> truth;
+};
+
+/// Writes the folder of a run: scans.csv, loops.csv and odometry.tum as results come, the rest at
+/// the end. docs/output.md lists the columns.
+class ResultWriter {
+ public:
+  ResultWriter(std::filesystem::path folder, const SensorModel& sensor, const Settings& settings);
+
+  void add(const ScanReport& report);
+
+  /// Writes the files that need the whole run. Returns the summary as text for the terminal.
+  std::string finish(const Slam& slam, const DatasetFacts& dataset, const RunFacts& facts);
+
+ private:
+  std::filesystem::path folder_;
+  Settings settings_;
+  AppendFile scans_;
+  AppendFile loops_;
+  AppendFile odometry_;
+  std::size_t scan_count_ = 0;
+  std::size_t accepted_loops_ = 0;
+  std::size_t refused_loops_ = 0;
+  std::map<std::string, std::size_t> statuses_;
+};
+
+}  // namespace lego_loam_sc

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/commands.hpp"
+#include "app/common_options.hpp"
+#include "app/interrupt.hpp"
+#include "app/progress.hpp"
+#include "app/result_writer.hpp"
+#include "app/run_folder.hpp"
+#include "app/scan_prefetcher.hpp"
+#include "io/error.hpp"
+#include "io/recognise_sensor.hpp"
+#include "io/scan_source.hpp"
+#include "io/sensor_yaml.hpp"
+#include "io/settings_yaml.hpp"
+#include "slam/slam.hpp"
+
+namespace lego_loam_sc {
+namespace {
+
+struct Options {
+  CommonOptions common;
+  std::string input;
+  std::optional<std::filesystem::path> output;
+  std::optional<std::filesystem::path> truth;
+  int threads = 2;
+  std::size_t first = 0;
+  std::optional<std::size_t> count;
+  bool quiet = false;
+};
+
+// The scans of a source from --first on, at most --count of them; reads ahead when there is a
+// thread for it.
+class Input {
+ public:
+  explicit Input(const Options& options)
+      : source_(open_scans(options.input)), left_(options.count) {
+    for (std::size_t k = 0; k < options.first; ++k)
+      if (!read_next(*source_)) break;
+    if (options.threads > 1) prefetcher_.emplace(*source_);
+  }
+
+  std::optional<ScanOrFault> next() {
+    if (left_ && *left_ == 0) return std::nullopt;
+    if (left_) --*left_;
+    return prefetcher_ ? prefetcher_->next() : read_next(*source_);
+  }
+
+  const ScanSource& source() const { return *source_; }
+
+ private:
+  std::unique_ptr<ScanSource> source_;
+  std::optional<std::size_t> left_;
+  std::optional<ScanPrefetcher> prefetcher_;
+};
+
+// Faults of the input are said as they come and make the exit code 1, but end nothing.
+void note_fault(const std::string& sentence, RunFacts& facts) {
+  spdlog::error("{}", sentence);
+  facts.faults.push_back(sentence);
+}
+
+std::optional<Scan> first_scan(Input& input, RunFacts& facts) {
+  while (auto item = input.next()) {
+    if (auto* scan = std::get_if<Scan>(&*item)) return std::move(*scan);
+    note_fault(std::get<std::string>(*item), facts);
+  }
+  return std::nullopt;
+}
+
+SensorModel choose_sensor(const Scan& scan, const DatasetFacts& dataset,
+                          const std::optional<std::string>& asked) {
+  if (!asked) return recognise_sensor(scan, dataset);
+  const SensorModel sensor = with_facts(load_sensor(*asked), dataset);
+  if (const auto mismatch = sensor_mismatch(scan, sensor)) throw InputError(*mismatch);
+  return sensor;
+}
+
+std::optional<std::size_t> expected_scans(const ScanSource& source, const Options& options) {
+  const std::optional<std::size_t> size = source.size();
+  if (!size) return options.count;
+  const std::size_t rest = *size - std::min(*size, options.first);
+  return options.count ? std::min(rest, *options.count) : rest;
+}
+
+void run(const Options& options, int& exit_code) {
+  const auto begin = std::chrono::steady_clock::now();
+  const CommonOptions& common = options.common;
+  const Settings settings = load_settings(common.method, common.config, common.assignments);
+  RunFacts facts;
+  facts.input = options.input;
+  facts.method = common.method;
+  facts.threads = options.threads;
+  facts.truth = options.truth;
+
+  Input input(options);
+  std::optional<Scan> scan = first_scan(input, facts);
+  if (!scan) throw InputError(options.input + ": no scan could be read; nothing was written");
+  const DatasetFacts& dataset = input.source().facts();
+  const SensorModel sensor = choose_sensor(*scan, dataset, common.sensor);
+  facts.sensor = sensor.name;
+  if (!options.quiet) {
+    spdlog::info("sensor {}, method {}", sensor.name, common.method);
+    for (const std::string& note : input.source().notes()) spdlog::info("{}", note);
+  }
+
+  const std::filesystem::path folder = make_run_folder(options.output, options.input);
+  ResultWriter writer(folder, sensor, settings);
+  Slam slam(sensor, settings, std::max(options.threads - 1, 1));
+  catch_interrupts();
+  {
+    Progress progress(expected_scans(input.source(), options), options.quiet);
+    while (scan && !interrupted()) {
+      writer.add(slam.process(*scan));
+      progress.step();
+      scan = first_scan(input, facts);
+    }
+  }
+  facts.interrupted = interrupted();
+  facts.wall_seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const std::string summary = writer.finish(slam, dataset, facts);
+  if (!options.quiet) std::printf("%sresults in %s\n", summary.c_str(), folder.c_str());
+  if (!facts.faults.empty()) exit_code = 1;
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, int& exit_code) {
+  auto* command = app.add_subcommand("run", "Run the SLAM on the scans of INPUT");
+  auto options = std::make_shared<Options>();
+  command->add_option("INPUT", options->input,
+                      "KITTI sequence folder, folder of .bin, .pcd or .ply scans, or - for a scan "
+                      "stream on standard input")
+      ->required();
+  command->add_option("-o,--output", options->output, "folder for the results, new or empty");
+  add_common_options(*command, options->common);
+  command->add_option("--threads", options->threads, "bound on all threads")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command->add_option("--first", options->first, "number of the first scan to use, from 0");
+  command->add_option("--count", options->count, "number of scans to use");
+  command->add_option("--truth", options->truth, "true trajectory, TUM or KITTI: adds the errors")
+      ->check(CLI::ExistingFile);
+  command->add_flag("--quiet", options->quiet, "print errors only");
+  command->callback([options, &exit_code] { run(*options, exit_code); });
+}
+
+}  // namespace lego_loam_sc

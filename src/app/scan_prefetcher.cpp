@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/scan_prefetcher.hpp"
+
+#include <utility>
+
+#include "io/error.hpp"
+
+namespace lego_loam_sc {
+
+std::optional<ScanOrFault> read_next(ScanSource& source) {
+  try {
+    if (std::optional<Scan> scan = source.next()) return ScanOrFault(std::move(*scan));
+    return std::nullopt;
+  } catch (const InputError& error) {
+    return ScanOrFault(std::string(error.what()));
+  }
+}
+
+ScanPrefetcher::ScanPrefetcher(ScanSource& source) : thread_([this, &source] { read(source); }) {}
+
+ScanPrefetcher::~ScanPrefetcher() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+std::optional<ScanOrFault> ScanPrefetcher::next() {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return !queue_.empty() || ended_; });
+  if (queue_.empty()) return std::nullopt;
+  ScanOrFault front = std::move(queue_.front());
+  queue_.pop_front();
+  changed_.notify_all();
+  return front;
+}
+
+void ScanPrefetcher::read(ScanSource& source) {
+  while (true) {
+    std::optional<ScanOrFault> item = read_next(source);
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return queue_.size() < kAhead || stopping_; });
+    if (!item || stopping_) {
+      ended_ = true;
+      changed_.notify_all();
+      return;
+    }
+    queue_.push_back(std::move(*item));
+    changed_.notify_all();
+  }
+}
+
+}  // namespace lego_loam_sc

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lego_loam_sc {
+
+/// The facts of one spinning LiDAR and its mounting; loaded from config/sensors/*.yaml.
+struct SensorModel {
+  std::string name;
+  std::vector<double> elevation_deg;  ///< one per row, row 0 = lowest beam, ascending
+  int columns = 1800;                 ///< columns of the range image over 360 degrees
+  double min_range = 1.0;             ///< m; nearer points hit the vehicle or the sensor itself
+  double max_range = 100.0;           ///< m
+  double range_noise = 0.02;          ///< m, one sigma
+  double period = 0.1;                ///< s for one turn
+  double start_azimuth_deg = 180.0;   ///< azimuth (counter-clockwise from x) where a sweep starts
+  bool clockwise = true;              ///< seen from above
+  bool motion_compensated = false;    ///< points are already moved to the stamp of their scan
+  bool times_from_azimuth = false;    ///< raw sweeps without times: a point's azimuth tells its time
+  double elevation_correction_deg = 0.0;  ///< added to the elevation angle of every point
+  double height = 0.0;      ///< m above the ground, 0 = unknown, then estimated from the scans
+  double mount_roll_deg = 0.0;   ///< mounting angles: R_base_lidar = R_y(pitch) R_x(roll)
+  double mount_pitch_deg = 0.0;
+
+  int rows() const { return static_cast<int>(elevation_deg.size()); }
+};
+
+/// The first fault of the model as one sentence that names the field, or nothing.
+std::optional<std::string> validate(const SensorModel& sensor);
+
+}  // namespace lego_loam_sc

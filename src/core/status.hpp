@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string_view>
+
+namespace lego_loam_sc {
+
+/// What became of a scan. A bad scan is an outcome, not the end of a run: in all cases but `ok`
+/// and `degenerate` the pose is the predicted one.
+enum class Status {
+  ok,
+  degenerate,      ///< matched, but at least one direction is held by the prediction alone
+  too_few_points,  ///< not enough points or features to match
+  lost,            ///< the match against the map did not hold
+  out_of_order,    ///< its stamp is not after the one before; the scan was ignored
+};
+
+constexpr std::string_view to_string(Status status) {
+  switch (status) {
+    case Status::ok: return "ok";
+    case Status::degenerate: return "degenerate";
+    case Status::too_few_points: return "too_few_points";
+    case Status::lost: return "lost";
+    case Status::out_of_order: return "out_of_order";
+  }
+  return "unknown";
+}
+
+}  // namespace lego_loam_sc

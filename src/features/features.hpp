@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/sensor_model.hpp"
+#include "core/settings.hpp"
+#include "segmentation/range_image.hpp"
+#include "segmentation/segmentation.hpp"
+
+namespace lego_loam_sc {
+
+struct FeaturePoint {
+  Eigen::Vector3f position;  ///< LiDAR frame at the time of the point, m
+  float age = 0.0f;          ///< s after the scan's reference time
+  float intensity = 0.0f;    ///< in the sensor's own unit
+  std::uint16_t row = 0;
+  std::uint16_t column = 0;
+  Label label = Label::segment;
+};
+
+/// The feature sets of paper 2.3 (2). The small sets hold the sharpest edges and the flattest
+/// points, F_e and F_p; the large sets, written with a double-struck F in the paper, contain them.
+/// All are in ascending order of row and column.
+struct Features {
+  std::vector<FeaturePoint> edges_sharp;    ///< F_e
+  std::vector<FeaturePoint> planars_flat;   ///< F_p
+  std::vector<FeaturePoint> edges_large;    ///< large F_e
+  std::vector<FeaturePoint> planars_large;  ///< large F_p
+};
+
+/// Selects features evenly: from each row and each of its sub-images, by roughness.
+Features extract_features(const RangeImage& image, const Segmentation& segmentation,
+                          const SensorModel& sensor, const FeatureSettings& settings);
+
+}  // namespace lego_loam_sc

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace lego_loam_sc {
+
+/// Roughness of a point without `neighbours` on both sides.
+constexpr float kNoRoughness = std::numeric_limits<float>::quiet_NaN();
+
+/// Equation (1) for the points of one row, which is a closed ring:
+///   c_i = |sum_{j in S, j != i} (r_j - r_i)| / (|S| |r_i|),
+/// S being the `neighbours` points on each side of i. `range` in m; `column` ascends; points more
+/// than `max_column_gap` columns apart are no neighbours, and a point near such a gap gets
+/// kNoRoughness.
+std::vector<float> roughness(const std::vector<float>& range,
+                             const std::vector<std::uint16_t>& column, int columns, int neighbours,
+                             int max_column_gap);
+
+}  // namespace lego_loam_sc

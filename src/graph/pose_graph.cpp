@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "graph/pose_graph.hpp"
+
+#include <gtsam/geometry/Pose3.h>
+#include <gtsam/nonlinear/LevenbergMarquardtOptimizer.h>
+#include <gtsam/nonlinear/NonlinearFactorGraph.h>
+#include <gtsam/slam/PriorFactor.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "graph/stretch.hpp"
+
+namespace lego_loam_sc {
+namespace {
+
+using gtsam::Pose3;
+
+constexpr double kPriorSigma = 1e-3;  // holds the gauge; any value gives the same poses
+// Largest change of a pose, m and entries of the rotation matrix, after which to stop: the next one
+// would be some hundred times smaller.
+constexpr double kConverged = 1e-5;
+constexpr int kMaxIterations = 20;
+
+Pose from_gtsam(const Pose3& pose) {
+  return Pose(pose.matrix());
+}
+
+// || Log(expected^-1 T_a^-1 T_b) + offset ||. GTSAM's own BetweenFactor leaves the derivative of
+// the logarithm out, which shifts the optimum where a residual is large.
+class RelativePoseFactor : public gtsam::NoiseModelFactor2<Pose3, Pose3> {
+ public:
+  RelativePoseFactor(int a, int b, const Pose3& expected, const Vector6& offset,
+                     const gtsam::SharedNoiseModel& noise)
+      : NoiseModelFactor2(noise, a, b), inverse_expected_(expected.inverse()), offset_(offset) {}
+
+  gtsam::Vector evaluateError(const Pose3& T_a, const Pose3& T_b,
+                              boost::optional<gtsam::Matrix&> Ha,
+                              boost::optional<gtsam::Matrix&> Hb) const override {
+    const Pose3 relative = T_a.between(T_b);
+    Matrix6 derivative;
+    const Vector6 residual = Pose3::Logmap(inverse_expected_ * relative, derivative) + offset_;
+    if (Ha) *Ha = -derivative * relative.inverse().AdjointMap();
+    if (Hb) *Hb = derivative;
+    return residual;
+  }
+
+ private:
+  Pose3 inverse_expected_;
+  Vector6 offset_;
+};
+
+void check(const PoseEdge& edge, const char* kind) {
+  const bool finite = edge.T_from_to.matrix().allFinite() && edge.covariance.allFinite();
+  if (finite && Eigen::LLT<Matrix6>(edge.covariance).info() == Eigen::Success) return;
+  throw std::invalid_argument(std::string(kind) + " edge from key frame " +
+                              std::to_string(edge.from) + " to " + std::to_string(edge.to) +
+                              " needs a finite pose and a positive definite covariance");
+}
+
+}  // namespace
+
+class PoseGraph::Solver {
+ public:
+  explicit Solver(const GraphSettings& settings) : settings_(settings) {}
+
+  void optimise();
+
+  std::vector<Pose> poses;
+  std::vector<PoseEdge> odometry;
+  std::vector<PoseEdge> loops;
+  std::vector<double> kernels;  // one per loop, sigmas
+  bool changed = false;         // loops have come or gone since the last optimisation
+
+  double kernel_of(const PoseEdge& loop) const;
+
+ private:
+  std::vector<int> loop_ends() const;
+  gtsam::Values solve(const std::vector<Stretch>& stretches) const;
+  double place_key_frames(const gtsam::Values& ends);
+
+  GraphSettings settings_;
+  std::vector<Link> links_;  // one per odometry edge that lies before the last loop end
+};
+
+void PoseGraph::Solver::optimise() {
+  if (!changed) return;
+  changed = false;
+  const std::vector<int> ends = loop_ends();
+  for (std::size_t i = links_.size(); i < static_cast<std::size_t>(ends.back()); ++i)
+    links_.push_back(unmoved(odometry[i]));
+  links_.resize(ends.back());
+
+  std::vector<Stretch> stretches(ends.size() - 1);
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+    for (std::size_t i = 0; i < links_.size(); ++i)
+      links_[i] = linearised(odometry[i], links_[i].relative);
+    for (std::size_t s = 0; s < stretches.size(); ++s)
+      stretches[s] = condense(links_, ends[s], ends[s + 1]);
+    const gtsam::Values solution = solve(stretches);
+    for (const Stretch& stretch : stretches)
+      expand(stretch, solution.at<Pose3>(stretch.from).between(solution.at<Pose3>(stretch.to)),
+             links_);
+    if (place_key_frames(solution) < kConverged) break;
+  }
+}
+
+// A loop must not be outvoted by the drift that it repairs, only by other loops. So the setting is
+// raised by the sigmas that odometry leaves on the closed loop, | S_loop S_odometry^-1 d | with d
+// the drift; no further than threefold, so that a few true loops outvote a wrong one.
+double PoseGraph::Solver::kernel_of(const PoseEdge& loop) const {
+  const auto [first, last] = std::minmax(loop.from, loop.to);
+  std::vector<Link> links(last);
+  for (int i = first; i < last; ++i) links[i] = unmoved(odometry[i]);
+  const Stretch chain = condense(links, first, last);
+  const Pose3 measured = to_gtsam(loop.from < loop.to ? loop.T_from_to : loop.T_from_to.inverse());
+  const Vector6 drift = Pose3::Logmap(chain.relative.inverse() * measured);
+  const Vector6 pull = chain.spread.ldlt().solve(drift);
+  const double sigmas = std::sqrt(pull.dot(swap_blocks(loop.covariance) * pull));
+  return settings_.loop_kernel + std::min(sigmas, 2.0 * settings_.loop_kernel);
+}
+
+// In ascending order; the first key frame is always one of them.
+std::vector<int> PoseGraph::Solver::loop_ends() const {
+  std::vector<int> ends = {0};
+  for (const PoseEdge& loop : loops) ends.insert(ends.end(), {loop.from, loop.to});
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  return ends;
+}
+
+gtsam::Values PoseGraph::Solver::solve(const std::vector<Stretch>& stretches) const {
+  namespace noise = gtsam::noiseModel;
+  gtsam::NonlinearFactorGraph graph;
+  gtsam::Values values;
+  values.insert(0, to_gtsam(poses[0]));
+  graph.addPrior(0, to_gtsam(poses[0]), noise::Isotropic::Sigma(6, kPriorSigma));
+  for (const Stretch& stretch : stretches) {
+    values.insert(stretch.to, to_gtsam(poses[stretch.to]));
+    graph.emplace_shared<RelativePoseFactor>(stretch.from, stretch.to, stretch.relative,
+                                             stretch.offset,
+                                             noise::Gaussian::Covariance(stretch.spread));
+  }
+  for (std::size_t l = 0; l < loops.size(); ++l) {
+    const PoseEdge& loop = loops[l];
+    gtsam::SharedNoiseModel model = noise::Gaussian::Covariance(swap_blocks(loop.covariance));
+    if (settings_.loop_kernel > 0.0)
+      model = noise::Robust::Create(noise::mEstimator::Huber::Create(kernels[l]), model);
+    graph.emplace_shared<RelativePoseFactor>(loop.from, loop.to, to_gtsam(loop.T_from_to),
+                                             Vector6::Zero(), model);
+  }
+  return gtsam::LevenbergMarquardtOptimizer(graph, values).optimize();
+}
+
+// Sets all poses from the solved loop ends and the links between them, then the odometry after
+// the last; returns the largest change.
+double PoseGraph::Solver::place_key_frames(const gtsam::Values& ends) {
+  double largest_change = 0.0;
+  Pose3 T_map_key = to_gtsam(poses[0]);
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    if (i <= links_.size()) {
+      T_map_key = ends.exists(i) ? ends.at<Pose3>(i) : T_map_key * links_[i - 1].relative;
+    } else {
+      T_map_key = T_map_key * to_gtsam(odometry[i - 1].T_from_to);
+    }
+    const Pose placed = from_gtsam(T_map_key);
+    largest_change = std::max(largest_change, (placed.matrix() - poses[i].matrix()).norm());
+    poses[i] = placed;
+  }
+  return largest_change;
+}
+
+PoseGraph::PoseGraph(const GraphSettings& settings) : solver_(std::make_unique<Solver>(settings)) {}
+PoseGraph::PoseGraph(PoseGraph&&) noexcept = default;
+PoseGraph& PoseGraph::operator=(PoseGraph&&) noexcept = default;
+PoseGraph::~PoseGraph() = default;
+
+void PoseGraph::add_first(const Pose& T_map_key) {
+  if (!solver_->poses.empty()) throw std::invalid_argument("the first key frame is there already");
+  solver_->poses.push_back(T_map_key);
+}
+
+void PoseGraph::add_key_frame(const PoseEdge& odometry) {
+  const int next = static_cast<int>(size());
+  if (odometry.from < 0 || odometry.from != next - 1 || odometry.to != next)
+    throw std::invalid_argument("odometry edge must lead from the last key frame to the next, " +
+                                std::to_string(next));
+  check(odometry, "odometry");
+  solver_->poses.push_back(normalized(solver_->poses.back() * odometry.T_from_to));
+  solver_->odometry.push_back(odometry);
+}
+
+void PoseGraph::add_loop(const PoseEdge& loop) {
+  const int count = static_cast<int>(size());
+  if (loop.from < 0 || loop.to < 0 || loop.from >= count || loop.to >= count ||
+      loop.from == loop.to)
+    throw std::invalid_argument("loop edge must join two different key frames of the " +
+                                std::to_string(count));
+  check(loop, "loop");
+  solver_->loops.push_back(loop);
+  solver_->kernels.push_back(solver_->kernel_of(loop));
+  solver_->changed = true;
+}
+
+void PoseGraph::remove_loop(std::size_t loop_index) {
+  if (loop_index >= solver_->loops.size())
+    throw std::invalid_argument("there is no loop edge " + std::to_string(loop_index));
+  const auto index = static_cast<std::ptrdiff_t>(loop_index);
+  solver_->loops.erase(solver_->loops.begin() + index);
+  solver_->kernels.erase(solver_->kernels.begin() + index);
+  solver_->changed = true;
+}
+
+void PoseGraph::optimise() {
+  solver_->optimise();
+}
+
+std::size_t PoseGraph::size() const {
+  return solver_->poses.size();
+}
+const std::vector<Pose>& PoseGraph::poses() const {
+  return solver_->poses;
+}
+const std::vector<PoseEdge>& PoseGraph::odometry_edges() const {
+  return solver_->odometry;
+}
+const std::vector<PoseEdge>& PoseGraph::loop_edges() const {
+  return solver_->loops;
+}
+
+double PoseGraph::loop_chi(std::size_t loop_index) const {
+  const PoseEdge& loop = loop_edges().at(loop_index);
+  const Pose estimate = poses()[loop.from].inverse() * poses()[loop.to];
+  const Vector6 residual = log_se3(loop.T_from_to.inverse() * estimate);
+  return std::sqrt(residual.dot(loop.covariance.llt().solve(residual)));
+}
+
+Matrix6 PoseGraph::relative_covariance(int a, int b) const {
+  const int first = std::min(a, b);
+  const int last = std::max(a, b);
+  if (first < 0 || last >= static_cast<int>(size()))
+    throw std::invalid_argument("relative covariance needs two key frames of the " +
+                                std::to_string(size()));
+  std::vector<Link> links(last);
+  for (int i = first; i < last; ++i)
+    links[i] = {to_gtsam(poses()[i]).between(to_gtsam(poses()[i + 1])), Vector6::Zero(),
+                swap_blocks(solver_->odometry[i].covariance)};
+  const Stretch chain = condense(links, first, last);
+  if (a <= b) return swap_blocks(chain.spread);
+  const Matrix6 adjoint = chain.relative.AdjointMap();
+  return swap_blocks(adjoint * chain.spread * adjoint.transpose());
+}
+
+}  // namespace lego_loam_sc

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/append_file.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "io/error.hpp"
+
+namespace lego_loam_sc {
+
+AppendFile::AppendFile(std::filesystem::path path) : path_(std::move(path)) {
+  file_ = std::fopen(path_.c_str(), "wb");
+  if (!file_) fail(errno);
+}
+
+AppendFile::~AppendFile() {
+  std::fclose(file_);
+}
+
+void AppendFile::append(std::string_view lines) {
+  if (std::fwrite(lines.data(), 1, lines.size(), file_) != lines.size() || std::fflush(file_) != 0)
+    fail(errno);
+}
+
+void AppendFile::fail(int error) const {
+  throw InputError(path_.string() + ": cannot be written (" + std::strerror(error) +
+                   "); make room or choose another folder with -o");
+}
+
+}  // namespace lego_loam_sc

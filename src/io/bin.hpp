@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+
+#include "core/scan.hpp"
+
+namespace lego_loam_sc {
+
+/// Reads a KITTI .bin file: float32 x y z (m) and intensity for each point, little-endian. An empty
+/// file is a scan without points. Throws InputError when the size is not a multiple of 16 bytes.
+Scan read_bin(const std::filesystem::path& path);
+
+}  // namespace lego_loam_sc

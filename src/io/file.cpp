@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/file.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+#include "io/error.hpp"
+
+namespace lego_loam_sc {
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& path) {
+  throw InputError(path.string() + " cannot be read: " + std::strerror(errno));
+}
+
+}  // namespace
+
+std::string read_file(const std::filesystem::path& path) {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
+                                                             &std::fclose);
+  if (!file) fail(path);
+  std::setvbuf(file.get(), nullptr, _IONBF, 0);  // our buffer is the whole file
+  std::error_code unknown;
+  const auto size = std::filesystem::file_size(path, unknown);
+  // One byte more than the file has: the read that leaves it empty has met the end.
+  std::string bytes(unknown ? 65536 : static_cast<std::size_t>(size) + 1, '\0');
+  std::size_t used = 0;
+  for (;;) {
+    used += std::fread(bytes.data() + used, 1, bytes.size() - used, file.get());
+    if (used < bytes.size()) break;
+    bytes.resize(2 * bytes.size());
+  }
+  if (std::ferror(file.get())) fail(path);
+  bytes.resize(used);
+  return bytes;
+}
+
+}  // namespace lego_loam_sc

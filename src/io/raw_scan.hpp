@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/scan.hpp"
+
+namespace lego_loam_sc {
+
+enum class NumberType {
+  int8,
+  uint8,
+  int16,
+  uint16,
+  int32,
+  uint32,
+  int64,
+  uint64,
+  float32,
+  float64
+};
+
+constexpr std::size_t size_of(NumberType type) {
+  switch (type) {
+    case NumberType::int8:
+    case NumberType::uint8:
+      return 1;
+    case NumberType::int16:
+    case NumberType::uint16:
+      return 2;
+    case NumberType::int32:
+    case NumberType::uint32:
+    case NumberType::float32:
+      return 4;
+    default:
+      return 8;
+  }
+}
+
+/// A field of a point file: one number per point, `stride` bytes apart in memory.
+struct Column {
+  std::string name;
+  NumberType declared;  ///< as the file's header has it
+  NumberType stored;    ///< as it lies in memory
+  const char* data;
+  std::size_t stride;
+  bool big_endian = false;
+};
+
+/// What a PCD or PLY file says. Its times are still numbers without a meaning: see point_times.hpp.
+struct RawScan {
+  Scan scan;                 ///< without stamp and offsets
+  std::vector<double> time;  ///< one per point, NaN for points without return; may be empty
+  NumberType time_type = NumberType::float64;
+};
+
+/// Picks position, intensity, ring and time out of `count` points by the names that drivers give
+/// them. Throws InputError, which begins with `file`, when x, y or z is missing or a ring is out of
+/// range.
+RawScan assemble(std::span<const Column> columns, std::size_t count, const std::string& file);
+
+/// Takes `count` points of `width` (not 0) numbers in words off the front of `rest`. Throws
+/// InputError, which begins with `file`, when they are not there; allocates nothing before it is
+/// clear that they can be.
+std::vector<double> take_numbers(std::string_view& rest, std::size_t count, std::size_t width,
+                                 const std::string& file);
+
+/// A point that the sensor got a return for: neither NaN nor all zeros.
+inline bool is_return(const Eigen::Vector3f& p) {
+  return p.allFinite() && !p.isZero(0.0F);
+}
+
+}  // namespace lego_loam_sc

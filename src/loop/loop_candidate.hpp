@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string_view>
+
+namespace lego_loam_sc {
+
+/// A pair of key frames that may show the same place; the verifier decides.
+struct LoopCandidate {
+  enum class Detector { scan_context, radius };
+
+  int query = 0;  ///< key frame, the later one
+  int match = 0;  ///< key frame of the earlier visit, c* of equation (8)
+  Detector detector = Detector::scan_context;
+  double distance = 0.0;  ///< Scan Context: D of equation (5), in [0, 1]; radius search: m
+  double yaw = 0.0;       ///< Scan Context only: rad, T_match_query turns by about R_z(yaw)
+};
+
+constexpr std::string_view to_string(LoopCandidate::Detector detector) {
+  return detector == LoopCandidate::Detector::scan_context ? "scan_context" : "radius";
+}
+
+}  // namespace lego_loam_sc

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/settings.hpp"
+#include "loop/loop_candidate.hpp"
+#include "loop/scan_context.hpp"
+
+namespace lego_loam_sc {
+
+/// The scan contexts of all key frames, searched by ring key: paper 2.3 (5c). The search goes
+/// through all keys, exactly: a key has few numbers, so this is faster than a kd-tree up to some
+/// hundred thousand key frames, and a new key frame is found at once.
+class ScanContextIndex {
+ public:
+  explicit ScanContextIndex(const ScanContextSettings& settings);
+
+  /// Key frames are added in order: the n-th call describes key frame n, from 0.
+  void add(ScanContext context);
+
+  std::size_t size() const { return contexts_.size(); }
+  const ScanContext& context(int key_frame) const { return contexts_[key_frame]; }
+
+  /// Loop candidates of key frame `query` among the key frames 0 to `eligible` - 1: those of the
+  /// `settings.candidates` nearest ring keys whose D is below `settings.threshold`, best first, so
+  /// that the first is c* of equation (8). Of equal ones the earlier key frame comes first.
+  std::vector<LoopCandidate> search(int query, int eligible) const;
+
+ private:
+  ScanContextSettings settings_;
+  std::vector<ScanContext> contexts_;
+  std::vector<float> ring_keys_;  // see nearest_keys
+};
+
+}  // namespace lego_loam_sc

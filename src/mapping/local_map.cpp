@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mapping/local_map.hpp"
+
+#include <algorithm>
+
+namespace lego_loam_sc {
+namespace {
+
+void insert(std::vector<SurfaceMap>& maps, const std::vector<FeaturePoint>& points,
+            const Pose& T_map_points) {
+  std::vector<Eigen::Vector3d> moved;
+  moved.reserve(points.size());
+  for (const FeaturePoint& p : points) moved.push_back(T_map_points * p.position.cast<double>());
+  for (SurfaceMap& map : maps) map.insert(moved);
+}
+
+void match(std::vector<SurfaceMap>& maps, const std::vector<FeaturePoint>& points,
+           const Pose& T_map_points, double max_distance, double range_noise, int first_level,
+           std::vector<Correspondence>& correspondences) {
+  for (const FeaturePoint& p : points) {
+    const Eigen::Vector3d point = p.position.cast<double>();
+    const Eigen::Vector3d moved = T_map_points * point;
+    for (std::size_t level = first_level; level < maps.size(); ++level) {
+      const Surface& surface = maps[level].surface_at(moved);
+      if (surface.kind == Surface::Kind::none) continue;
+      const auto kind = surface.kind == Surface::Kind::plane ? Correspondence::Kind::plane
+                                                             : Correspondence::Kind::line;
+      const double weight = 1.0 / (range_noise * range_noise + surface.variance);
+      const Correspondence c{kind, point, surface.mean, surface.direction, weight};
+      if (distance(c, T_map_points) <= max_distance) correspondences.push_back(c);
+      break;
+    }
+  }
+}
+
+}  // namespace
+
+LocalMap::LocalMap(double voxel_size, int levels, double planarity) {
+  for (int level = 0; level < levels; ++level) {
+    const double size = voxel_size * (1 << level);
+    planes_.emplace_back(SurfaceMapSettings{Surface::Kind::plane, size, planarity});
+    lines_.emplace_back(SurfaceMapSettings{Surface::Kind::line, size, planarity});
+  }
+}
+
+void LocalMap::insert_planars(const std::vector<FeaturePoint>& points, const Pose& T_map_points) {
+  insert(planes_, points, T_map_points);
+}
+
+void LocalMap::insert_edges(const std::vector<FeaturePoint>& points, const Pose& T_map_points) {
+  insert(lines_, points, T_map_points);
+}
+
+void LocalMap::match_planars(const std::vector<FeaturePoint>& points, const Pose& T_map_points,
+                             double max_distance, double range_noise, int first_level,
+                             std::vector<Correspondence>& correspondences) {
+  match(planes_, points, T_map_points, max_distance, range_noise, first_level, correspondences);
+}
+
+void LocalMap::match_edges(const std::vector<FeaturePoint>& points, const Pose& T_map_points,
+                           double max_distance, double range_noise, int first_level,
+                           std::vector<Correspondence>& correspondences) {
+  match(lines_, points, T_map_points, max_distance, range_noise, first_level, correspondences);
+}
+
+bool LocalMap::occupied(const Eigen::Vector3d& point) {
+  return planes_.front().occupied(point) || lines_.front().occupied(point);
+}
+
+void LocalMap::remove_beyond(const Eigen::Vector3d& center, double radius) {
+  for (SurfaceMap& map : planes_) map.remove_beyond(center, radius);
+  for (SurfaceMap& map : lines_) map.remove_beyond(center, radius);
+}
+
+void LocalMap::clear() {
+  for (SurfaceMap& map : planes_) map.clear();
+  for (SurfaceMap& map : lines_) map.clear();
+}
+
+std::size_t LocalMap::size() const { return planes_.front().size() + lines_.front().size(); }
+
+}  // namespace lego_loam_sc

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "core/pose.hpp"
+#include "features/features.hpp"
+#include "mapping/surface_map.hpp"
+#include "odometry/correspondence.hpp"
+
+namespace lego_loam_sc {
+
+/// The surroundings as planes and lines: one surface map of planar and one of edge features for
+/// each of several voxel sizes. Serves the mapper and the verifier of loops.
+class LocalMap {
+ public:
+  /// The finest voxels measure `voxel_size` (m), each of the `levels` twice the one before.
+  LocalMap(double voxel_size, int levels, double planarity);
+
+  void insert_planars(const std::vector<FeaturePoint>& points, const Pose& T_map_points);
+  void insert_edges(const std::vector<FeaturePoint>& points, const Pose& T_map_points);
+
+  /// Appends the correspondence of each point that finds a surface within `max_distance` (m) on
+  /// the finest level that has one, starting at `first_level` (0 = finest).
+  void match_planars(const std::vector<FeaturePoint>& points, const Pose& T_map_points,
+                     double max_distance, double range_noise, int first_level,
+                     std::vector<Correspondence>& correspondences);
+  void match_edges(const std::vector<FeaturePoint>& points, const Pose& T_map_points,
+                   double max_distance, double range_noise, int first_level,
+                   std::vector<Correspondence>& correspondences);
+
+  /// True when a planar or edge point lies in the finest voxel of `point` (map frame).
+  bool occupied(const Eigen::Vector3d& point);
+
+  void remove_beyond(const Eigen::Vector3d& center, double radius);
+  void clear();
+  std::size_t size() const;
+
+ private:
+  std::vector<SurfaceMap> planes_;  // finest first
+  std::vector<SurfaceMap> lines_;
+};
+
+}  // namespace lego_loam_sc

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/pose.hpp"
+#include "core/settings.hpp"
+#include "features/features.hpp"
+#include "mapping/local_map.hpp"
+#include "odometry/localizability.hpp"
+
+namespace lego_loam_sc {
+
+/// Outcome of matching one scan against the local map.
+struct MapMatch {
+  Pose T_map_lidar = Pose::Identity();  ///< at the scan's reference time
+  bool matched = false;                 ///< false: the pose is the guess
+  int points = 0;                       ///< that were to be matched
+  int matches = 0;                      ///< of them found a surface
+  int iterations = 0;
+  double rmse = 0.0;                      ///< m, of the matched points with their robust weights
+  Matrix6 covariance = Matrix6::Zero();   ///< of the perturbation of core/pose.hpp; zero if not matched
+  Localizability localizability;
+};
+
+/// What is known of a scan's pose before it is matched.
+struct ScanGuess {
+  Pose T_map_lidar = Pose::Identity();         ///< at the scan's reference time
+  Pose T_previous_current = Pose::Identity();  ///< motion since the previous scan
+  double seconds = 0.1;                        ///< of that motion
+};
+
+/// Scan-to-map refinement, paper 2.3 (4).
+class Mapper {
+ public:
+  /// `range_noise` in m, one sigma.
+  Mapper(const MappingSettings& settings, double range_noise);
+
+  /// Matches the large feature sets with the map. The sweep is de-skewed with the motion since the
+  /// previous scan, corrected as the pose is being refined.
+  MapMatch refine(const Features& features, const ScanGuess& guess);
+
+  /// Adds features that are already de-skewed, and forgets what is out of reach.
+  void insert(const Features& deskewed, const Pose& T_map_lidar);
+
+  void clear() { map_.clear(); }
+  bool empty() const { return map_.size() == 0; }
+
+ private:
+  MappingSettings settings_;
+  double range_noise_;
+  LocalMap map_;
+  Eigen::Vector3d last_eviction_ = Eigen::Vector3d::Zero();
+};
+
+}  // namespace lego_loam_sc

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "mapping/voxel_table.hpp"
+
+namespace lego_loam_sc {
+
+/// The plane or line that the points round a place lie on.
+struct Surface {
+  enum class Kind : std::uint8_t { none, plane, line };
+
+  Kind kind = Kind::none;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();       ///< map frame, m
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< unit normal, or direction of the line
+  double variance = 0.0;  ///< m^2, of the points across the surface
+};
+
+struct SurfaceMapSettings {
+  Surface::Kind kind = Surface::Kind::plane;  ///< what is fitted
+  double voxel_size = 0.5;                    ///< m
+  double planarity = 0.1;                     ///< largest ratio of the eigenvalues, see surface_at
+};
+
+/// An incremental voxel map of surfaces. Each voxel keeps the count, sum and sum of squares of all
+/// points that ever fell into it, so that a surface averages the noise of many scans. A surface is
+/// fitted to a block of 2 x 2 x 2 voxels. Blocks overlap: each place belongs to the one whose
+/// middle is nearest, hence lies at least half a voxel from its border, and no surface is cut in
+/// two at the border of a voxel. Fits are kept until points have come.
+class SurfaceMap {
+ public:
+  explicit SurfaceMap(const SurfaceMapSettings& settings);
+
+  /// Adds points, map frame, m.
+  void insert(std::span<const Eigen::Vector3d> points);
+
+  /// The surface of the block round `point`; kind `none` where there is no clear one. A plane has
+  /// variances l1 <= l2 <= l3 along its axes with l1 <= planarity * l2, a line l2 <= planarity * l3.
+  const Surface& surface_at(const Eigen::Vector3d& point);
+
+  /// True when the voxel of `point` holds points.
+  bool occupied(const Eigen::Vector3d& point);
+
+  /// Forgets voxels farther than `radius` (m) from `center`.
+  void remove_beyond(const Eigen::Vector3d& center, double radius);
+
+  void clear();
+  std::size_t size() const { return voxels_.size(); }
+
+ private:
+  struct Voxel {
+    Eigen::Vector3d origin;                                 // centre of the voxel, map frame
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();          // of the points less the origin
+    Eigen::Matrix<double, 6, 1> square = Eigen::Matrix<double, 6, 1>::Zero();  // xx yy zz xy xz yz
+    std::uint32_t count = 0;
+  };
+  struct Block {
+    Surface surface;
+    Eigen::Vector3d middle;
+    std::uint32_t count = 0;     // points at the last fit
+    std::uint32_t revision = 0;  // of the map when the block was last looked at
+  };
+
+  Surface fit(const std::array<const Voxel*, 8>& voxels, std::uint32_t count,
+              const Eigen::Vector3d& middle) const;
+
+  SurfaceMapSettings settings_;
+  VoxelTable<Voxel> voxels_;
+  VoxelTable<Block> blocks_;
+  std::uint32_t revision_ = 1;
+  Surface nothing_;
+};
+
+}  // namespace lego_loam_sc

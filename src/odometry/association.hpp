@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "core/pose.hpp"
+#include "core/settings.hpp"
+#include "odometry/correspondence.hpp"
+#include "odometry/feature_index.hpp"
+
+namespace lego_loam_sc {
+
+/// Point-to-line correspondences: the line through the nearest edge point of the previous scan and
+/// the nearest one on another row close by.
+std::vector<Correspondence> associate_edges(const std::vector<FeaturePoint>& edges,
+                                            const FeatureIndex& previous,
+                                            const Pose& T_previous_current,
+                                            const OdometrySettings& settings, double range_noise);
+
+/// Point-to-plane correspondences: the plane through the planar points of the previous scan round
+/// the nearest one, on its row and on rows close by.
+std::vector<Correspondence> associate_planars(const std::vector<FeaturePoint>& planars,
+                                              const FeatureIndex& previous,
+                                              const Pose& T_previous_current,
+                                              const OdometrySettings& settings,
+                                              double range_noise);
+
+}  // namespace lego_loam_sc

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "odometry/deskew.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lego_loam_sc {
+
+SweepMotion::SweepMotion(const Vector6& twist, float span) : span_(span) {
+  for (int k = 0; k <= kSteps; ++k) {
+    const double age = static_cast<double>(span) * (2.0 * k / kSteps - 1.0);
+    transforms_[k] = exp_se3(twist * age).matrix().topRows<3>().cast<float>();
+  }
+  if (span > 0.0f) steps_per_second_ = kSteps / (2.0f * span);
+}
+
+Eigen::Vector3f SweepMotion::operator()(const Eigen::Vector3f& point, float age) const {
+  const float position = (age + span_) * steps_per_second_;
+  const int step = std::clamp(static_cast<int>(position), 0, kSteps - 1);
+  const float share = position - static_cast<float>(step);
+  const Transform transform = (1.0f - share) * transforms_[step] + share * transforms_[step + 1];
+  return transform.leftCols<3>() * point + transform.col(3);
+}
+
+float age_span(const std::vector<FeaturePoint>& points) {
+  float span = 0.0f;
+  for (const FeaturePoint& p : points) span = std::max(span, std::abs(p.age));
+  return span;
+}
+
+std::vector<FeaturePoint> deskew(const std::vector<FeaturePoint>& points, const Vector6& twist) {
+  std::vector<FeaturePoint> moved = points;
+  const float span = age_span(points);
+  if (span == 0.0f) return moved;
+  const SweepMotion motion(twist, span);
+  for (FeaturePoint& p : moved) {
+    p.position = motion(p.position, p.age);
+    p.age = 0.0f;
+  }
+  return moved;
+}
+
+}  // namespace lego_loam_sc

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/pose.hpp"
+#include "features/features.hpp"
+
+namespace lego_loam_sc {
+
+/// The sensor's motion during one sweep at constant body velocity: maps a point seen `age` seconds
+/// after the reference time into the sensor's frame at that time.
+class SweepMotion {
+ public:
+  /// `twist` in m/s and rad/s, `span` the largest absolute age in s.
+  SweepMotion(const Vector6& twist, float span);
+
+  Eigen::Vector3f operator()(const Eigen::Vector3f& point, float age) const;
+
+ private:
+  // Transforms at equal steps of age, blended linearly: over 0.1 s at even 10 rad/s the blend is off
+  // by 3e-5 of the range.
+  static constexpr int kSteps = 64;
+  using Transform = Eigen::Matrix<float, 3, 4>;
+  std::array<Transform, kSteps + 1> transforms_;
+  float span_ = 0.0f;
+  float steps_per_second_ = 0.0f;
+};
+
+/// The largest absolute age of a set of points, s.
+float age_span(const std::vector<FeaturePoint>& points);
+
+/// The points moved to the reference time of their scan; `age` becomes 0.
+std::vector<FeaturePoint> deskew(const std::vector<FeaturePoint>& points, const Vector6& twist);
+
+}  // namespace lego_loam_sc

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "odometry/odometry.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+#include "odometry/association.hpp"
+#include "odometry/correspondence.hpp"
+#include "odometry/deskew.hpp"
+
+namespace lego_loam_sc {
+namespace {
+
+// The kernel's scale in robust sigmas of the residuals, and its limits in m.
+constexpr double kKernelSigmas = 2.0;
+constexpr double kMinScale = 0.05;
+constexpr double kMaxScale = 1.0;
+
+constexpr std::array<int, 3> kGroundUnknowns = {2, 3, 4};  // t_z, roll, pitch
+constexpr std::array<int, 3> kEdgeUnknowns = {0, 1, 5};    // t_x, t_y, yaw
+constexpr std::array<int, 6> kAllUnknowns = {0, 1, 2, 3, 4, 5};
+
+// Moves `pose` to the minimum over `unknowns`; the others stay as they are.
+template <std::size_t N>
+LevenbergMarquardtResult solve(std::span<const Correspondence> correspondences,
+                               const std::array<int, N>& unknowns, int max_iterations, Pose& pose) {
+  const double scale =
+      robust_scale(correspondences, pose, kKernelSigmas, kMinScale, kMaxScale);
+  return levenberg_marquardt<N>(
+      pose, max_iterations,
+      [&](const Pose& at) {
+        return restrict_to(normal_equations(correspondences, at, scale), unknowns);
+      },
+      [&](const Pose& at, const Eigen::Matrix<double, N, 1>& step) {
+        Vector6 delta = Vector6::Zero();
+        for (std::size_t i = 0; i < N; ++i) delta[unknowns[i]] = step[i];
+        return perturb(at, delta);
+      });
+}
+
+// Searches correspondences anew and solves until the pose stands still. `associate(pose)` returns
+// the correspondences, fewer than `needed` of them mean failure.
+template <std::size_t N, class Associate>
+bool refine(Associate&& associate, const std::array<int, N>& unknowns, int needed,
+            int associations, int iterations, Pose& pose, int& total_iterations) {
+  for (int k = 0; k < associations; ++k) {
+    const std::vector<Correspondence> correspondences = associate(pose);
+    if (static_cast<int>(correspondences.size()) < needed) return false;
+    const auto result = solve(correspondences, unknowns, iterations, pose);
+    total_iterations += result.iterations;
+    if (result.step < kConvergedStep) break;
+  }
+  return true;
+}
+
+// Directions that the features do not hold keep the guess: the motion goes on instead of freezing.
+Pose keep_guess_where_degenerate(const Pose& solved, const Pose& guess, const Localizability& l) {
+  Eigen::Vector3d translation = solved.translation() - guess.translation();
+  Eigen::Vector3d rotation = log_so3(solved.linear() * guess.linear().transpose());
+  for (int i = 0; i < l.degenerate_translations; ++i)
+    translation -= l.translation_axes.col(i) * l.translation_axes.col(i).dot(translation);
+  for (int i = 0; i < l.degenerate_rotations; ++i)
+    rotation -= l.rotation_axes.col(i) * l.rotation_axes.col(i).dot(rotation);
+  Vector6 delta;
+  delta << translation, rotation;
+  return perturb(guess, delta);
+}
+
+// The ground points of the large planar set when F_p comes from the ground, so that labels match.
+std::vector<FeaturePoint> ground_or_all(const Features& features) {
+  const bool any_ground = std::any_of(features.planars_flat.begin(), features.planars_flat.end(),
+                                      [](const FeaturePoint& p) { return p.label == Label::ground; });
+  if (!any_ground) return features.planars_large;
+  std::vector<FeaturePoint> ground;
+  std::copy_if(features.planars_large.begin(), features.planars_large.end(),
+               std::back_inserter(ground),
+               [](const FeaturePoint& p) { return p.label == Label::ground; });
+  return ground;
+}
+
+}  // namespace
+
+Odometry::Odometry(const OdometrySettings& settings, double range_noise)
+    : settings_(settings), range_noise_(std::max(range_noise, 1e-3)) {}
+
+void Odometry::set_previous(const Features& deskewed) {
+  edges_.emplace(deskewed.edges_large);
+  planars_.emplace(ground_or_all(deskewed));
+}
+
+Motion Odometry::estimate(const Features& features, const Pose& guess, double seconds) const {
+  Motion motion;
+  motion.T_previous_current = guess;
+  if (!has_previous()) return motion;
+
+  // The points of a sweep are moved to its middle with the motion as estimated so far.
+  const auto edges_at = [&](const Pose& pose) {
+    return associate_edges(deskew(features.edges_sharp, log_se3(pose) / seconds), *edges_, pose,
+                           settings_, range_noise_);
+  };
+  const auto planars_at = [&](const Pose& pose) {
+    return associate_planars(deskew(features.planars_flat, log_se3(pose) / seconds), *planars_,
+                             pose, settings_, range_noise_);
+  };
+  const auto all_at = [&](const Pose& pose) {
+    std::vector<Correspondence> all = planars_at(pose);
+    const std::vector<Correspondence> edges = edges_at(pose);
+    all.insert(all.end(), edges.begin(), edges.end());
+    return all;
+  };
+
+  Pose pose = guess;
+  if (settings_.two_step) {
+    motion.solved =
+        refine(planars_at, kGroundUnknowns, settings_.min_planars, settings_.associations,
+               settings_.iterations, pose, motion.iterations) &&
+        refine(edges_at, kEdgeUnknowns, settings_.min_edges, settings_.associations,
+               settings_.iterations, pose, motion.iterations);
+    if (motion.solved && settings_.polish_iterations > 0)
+      refine(all_at, kAllUnknowns, 6, 1, settings_.polish_iterations, pose, motion.iterations);
+  } else {
+    motion.solved =
+        refine(all_at, kAllUnknowns, settings_.min_edges + settings_.min_planars,
+               settings_.associations, settings_.iterations, pose, motion.iterations);
+  }
+  if (!motion.solved) return motion;
+
+  const std::vector<Correspondence> matched = all_at(pose);
+  for (const Correspondence& c : matched)
+    ++(c.kind == Correspondence::Kind::line ? motion.edges : motion.planars);
+  const double scale = robust_scale(matched, pose, kKernelSigmas, kMinScale, kMaxScale);
+  motion.localizability = localizability(matched, pose, scale, settings_.min_strength);
+  motion.T_previous_current =
+      normalized(keep_guess_where_degenerate(pose, guess, motion.localizability));
+  return motion;
+}
+
+}  // namespace lego_loam_sc

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "core/pose.hpp"
+#include "core/settings.hpp"
+#include "features/features.hpp"
+#include "odometry/feature_index.hpp"
+#include "odometry/localizability.hpp"
+
+namespace lego_loam_sc {
+
+/// Motion from the previous scan to the current one, between their reference times.
+struct Motion {
+  Pose T_previous_current = Pose::Identity();
+  bool solved = false;  ///< false: too few correspondences, the pose is the guess
+  int edges = 0;        ///< correspondences of the last association
+  int planars = 0;
+  int iterations = 0;   ///< Levenberg-Marquardt steps of all solves
+  Localizability localizability;
+};
+
+/// Scan-to-scan odometry, paper 2.3 (3): features of the current scan, F_e and F_p, against the
+/// large feature sets of the previous one, edges with edges and ground with ground (label matching),
+/// in two Levenberg-Marquardt steps: [t_z, roll, pitch] from planes, then [t_x, t_y, yaw] from edges.
+class Odometry {
+ public:
+  /// `range_noise` in m, one sigma.
+  Odometry(const OdometrySettings& settings, double range_noise);
+
+  /// `guess` is the predicted motion and `seconds` the time since the previous scan; the points of
+  /// a sweep with times are de-skewed with the motion as it is being estimated.
+  Motion estimate(const Features& features, const Pose& guess, double seconds) const;
+
+  /// Makes `deskewed` the scan that the next one is matched with.
+  void set_previous(const Features& deskewed);
+
+  bool has_previous() const { return edges_.has_value(); }
+
+ private:
+  OdometrySettings settings_;
+  double range_noise_;
+  std::optional<FeatureIndex> edges_;
+  std::optional<FeatureIndex> planars_;
+};
+
+}  // namespace lego_loam_sc

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "segmentation/ground.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/pose.hpp"
+
+namespace lego_loam_sc {
+namespace {
+
+// How fast the allowed height difference grows with the distance between two ground points.
+constexpr float kHeightPerMetre = 0.05f;
+
+struct LevelPoint {
+  float across;  // horizontal distance from the sensor, m
+  float z;       // height in the levelled frame, m
+};
+
+class Leveller {
+ public:
+  explicit Leveller(const SensorModel& sensor)
+      : R_base_lidar_(
+            rotation_from_rpy(radians(sensor.mount_roll_deg), radians(sensor.mount_pitch_deg), 0.0)
+                .cast<float>()) {}
+
+  LevelPoint operator()(const Eigen::Vector3f& p) const {
+    const Eigen::Vector3f q = R_base_lidar_ * p;
+    return {std::sqrt(q.x() * q.x() + q.y() * q.y()), q.z()};
+  }
+
+ private:
+  Eigen::Matrix3f R_base_lidar_;
+};
+
+bool is_level(const LevelPoint& a, const LevelPoint& b, float max_tangent) {
+  return std::abs(b.z - a.z) <= max_tangent * std::abs(b.across - a.across);
+}
+
+// Rows whose beams can see the ground.
+int ground_rows(const SensorModel& sensor, const SegmentationSettings& settings) {
+  const auto end = std::upper_bound(sensor.elevation_deg.begin(), sensor.elevation_deg.end(),
+                                    settings.ground_max_elevation_deg);
+  return static_cast<int>(end - sensor.elevation_deg.begin());
+}
+
+// Other points in the pixel of a ground point are ground when they lie at about its range.
+void mark_pixel(const RangeImage& image, std::int32_t nearest, float tolerance,
+                std::vector<Label>& label) {
+  label[nearest] = Label::ground;
+  const std::int32_t count = static_cast<std::int32_t>(image.size());
+  const auto same = [&](std::int32_t k) {
+    return image.column[k] == image.column[nearest] &&
+           std::abs(image.range[k] - image.range[nearest]) < tolerance &&
+           std::abs(image.points[k].z() - image.points[nearest].z()) < tolerance;
+  };
+  for (std::int32_t k = nearest + 1; k < count && same(k); ++k) label[k] = Label::ground;
+  for (std::int32_t k = nearest - 1; k >= 0 && same(k); --k) label[k] = Label::ground;
+}
+
+}  // namespace
+
+void mark_ground(const RangeImage& image, const SensorModel& sensor, double sensor_height,
+                 const SegmentationSettings& settings, std::vector<Label>& label) {
+  const Leveller level(sensor);
+  const float max_tangent = static_cast<float>(std::tan(radians(settings.ground_slope_deg)));
+  const float tolerance = static_cast<float>(settings.ground_height_tolerance);
+  const int rows = ground_rows(sensor, settings);
+
+  for (int column = 0; column < image.columns; ++column) {
+    // The last ground point of the column; at first the point below the sensor.
+    LevelPoint ground{0.0f, -static_cast<float>(sensor_height)};
+    bool ground_known = sensor_height > 0.0;
+    LevelPoint previous{};
+    std::int32_t previous_index = -1;
+    int previous_row = -1;
+    for (int row = 0; row < rows; ++row) {
+      const std::int32_t index = image.pixel(row, column);
+      if (index < 0) continue;
+      const LevelPoint point = level(image.points[index]);
+      const bool neighbours =
+          previous_index >= 0 && row - previous_row <= settings.ground_max_row_gap;
+      if (neighbours && is_level(previous, point, max_tangent)) {
+        const float allowed =
+            tolerance + kHeightPerMetre * std::abs(previous.across - ground.across);
+        const bool continues = ground_known ? std::abs(previous.z - ground.z) <= allowed
+                                            : previous.z < 0.0f;
+        if (label[previous_index] == Label::ground || continues) {
+          mark_pixel(image, previous_index, tolerance, label);
+          mark_pixel(image, index, tolerance, label);
+          ground = point;
+          ground_known = true;
+        }
+      }
+      previous = point;
+      previous_index = index;
+      previous_row = row;
+    }
+  }
+}
+
+std::optional<double> estimate_sensor_height(const RangeImage& image, const SensorModel& sensor,
+                                             const SegmentationSettings& settings) {
+  constexpr float kReach = 15.0f;    // m round the vehicle
+  constexpr float kBin = 0.1f;       // m
+  constexpr int kBins = 100;         // down to 10 m below the sensor
+  constexpr int kEnough = 100;       // points in the fullest bin
+  const Leveller level(sensor);
+  const float max_tangent = static_cast<float>(std::tan(radians(settings.ground_slope_deg)));
+  const int rows = ground_rows(sensor, settings);
+
+  std::array<int, kBins> count{};
+  std::array<double, kBins> depth_sum{};
+  for (int column = 0; column < image.columns; ++column) {
+    for (int row = 1; row < rows; ++row) {
+      const std::int32_t below = image.pixel(row - 1, column);
+      const std::int32_t index = image.pixel(row, column);
+      if (below < 0 || index < 0) continue;
+      const LevelPoint a = level(image.points[below]);
+      const LevelPoint b = level(image.points[index]);
+      if (b.across > kReach || b.z >= 0.0f || !is_level(a, b, max_tangent)) continue;
+      const int bin = static_cast<int>(-b.z / kBin);
+      if (bin >= kBins) continue;
+      ++count[bin];
+      depth_sum[bin] += -b.z;
+    }
+  }
+  const int best = static_cast<int>(std::max_element(count.begin(), count.end()) - count.begin());
+  if (count[best] < kEnough) return std::nullopt;
+  // The peak may straddle two bins.
+  double sum = 0.0;
+  int points = 0;
+  for (int bin = std::max(best - 1, 0); bin <= std::min(best + 1, kBins - 1); ++bin) {
+    sum += depth_sum[bin];
+    points += count[bin];
+  }
+  return sum / points;
+}
+
+}  // namespace lego_loam_sc

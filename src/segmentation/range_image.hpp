@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/scan.hpp"
+#include "core/sensor_model.hpp"
+
+namespace lego_loam_sc {
+
+/// A scan in the order of the sensor's beams. All valid points are kept, one array per attribute,
+/// row by row from the lowest beam, each row by ascending azimuth; `pixels` is the image over
+/// them. Paper 2.3 (1): row, column and range of every point.
+struct RangeImage {
+  int rows = 0;
+  int columns = 0;
+
+  std::vector<std::uint32_t> row_begin;  ///< rows + 1; row r is [row_begin[r], row_begin[r + 1])
+  std::vector<Eigen::Vector3f> points;   ///< LiDAR frame at the time of the point, m
+  std::vector<float> range;              ///< m
+  std::vector<float> intensity;          ///< zeros when the sensor gives none
+  std::vector<float> age;                ///< s after the reference time; all zero when the scan
+                                         ///< is motion compensated or has no times
+  std::vector<std::uint16_t> column;     ///< 0 = straight back, ascending counter-clockwise
+
+  std::vector<std::int32_t> pixels;  ///< rows x columns, the nearest point of the pixel or -1
+
+  std::int64_t stamp_ns = 0;      ///< of the scan
+  std::int64_t reference_ns = 0;  ///< middle of the sweep: the time that points are de-skewed to.
+                                  ///< There an error of the velocity has no effect on the pose.
+
+  std::size_t size() const { return points.size(); }
+  std::int32_t pixel(int row, int column_index) const {
+    return pixels[static_cast<std::size_t>(row) * columns + column_index];
+  }
+};
+
+/// Projects a scan. Points that are not finite, nearer than min_range, beyond max_range or that
+/// belong to no row are left out with all their attributes; when several points share a pixel the
+/// nearest one stands for it.
+RangeImage project(const Scan& scan, const SensorModel& sensor);
+
+}  // namespace lego_loam_sc

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/scan.hpp"
+#include "core/sensor_model.hpp"
+
+namespace lego_loam_sc {
+
+/// The row (0 = lowest beam) of every point, or -1 where there is none: from the ring of the file
+/// when it is there, from the storage order when the points lie ring by ring as in KITTI's files,
+/// from the elevation table otherwise. `usable[i]` says whether point i has a finite position.
+std::vector<std::int16_t> assign_rows(const Scan& scan, const std::vector<std::uint8_t>& usable,
+                                      const SensorModel& sensor);
+
+}  // namespace lego_loam_sc

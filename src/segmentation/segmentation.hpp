@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/sensor_model.hpp"
+#include "core/settings.hpp"
+#include "segmentation/range_image.hpp"
+
+namespace lego_loam_sc {
+
+enum class Label : std::uint8_t {
+  outlier,  ///< in no cluster of sufficient size: noise, leaves
+  ground,
+  segment,  ///< in a cluster
+};
+
+/// What each point of a range image belongs to. Paper 2.1 and 2.3 (1).
+struct Segmentation {
+  std::vector<Label> label;           ///< one per point of the image
+  std::vector<std::int32_t> cluster;  ///< 0, 1, ... in order of appearance; -1 outside `segment`
+  int clusters = 0;
+  std::size_t ground_points = 0;
+  std::size_t segment_points = 0;
+};
+
+/// Ground first, then clusters of what remains. `sensor_height` is the sensor's height above the
+/// ground, m; 0 = unknown.
+Segmentation segment(const RangeImage& image, const SensorModel& sensor, double sensor_height,
+                     const SegmentationSettings& settings);
+
+}  // namespace lego_loam_sc

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/pose.hpp"
+#include "sim/mesh.hpp"
+#include "sim/random.hpp"
+
+namespace lego_loam_sc {
+
+// The things that stand about. `T_world_thing` places the middle of the thing's base on the
+// ground, x along its length. Sizes and materials vary at random within what is usual.
+
+/// A parked car: hatchback, saloon or van, 3.8 to 5 m long.
+void add_car(Mesh& mesh, const Pose& T_world_car, Random& random);
+
+/// A trunk with a crown of leaves, 5 to 9 m high.
+void add_tree(Mesh& mesh, const Pose& T_world_tree, Random& random);
+
+/// A hedge of leaves, `length` (m) long.
+void add_hedge(Mesh& mesh, const Pose& T_world_hedge, double length, Random& random);
+
+/// A lamp post with its arm along x.
+void add_lamp(Mesh& mesh, const Pose& T_world_lamp);
+
+/// A traffic sign that faces x.
+void add_sign(Mesh& mesh, const Pose& T_world_sign);
+
+}  // namespace lego_loam_sc

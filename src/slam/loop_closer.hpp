@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/settings.hpp"
+#include "graph/pose_graph.hpp"
+#include "loop/key_frame.hpp"
+#include "loop/loop_candidate.hpp"
+#include "loop/ring_key_index.hpp"
+#include "slam/report.hpp"
+
+namespace lego_loam_sc {
+
+/// Loop closing, paper 2.3 (5) and (6): candidates from Scan Context and from the radius search,
+/// both independently, verified by ICP and checked against the pose graph.
+class LoopCloser {
+ public:
+  LoopCloser(const LoopSettings& settings, const GraphSettings& graph, double range_noise);
+
+  /// Describes the newest key frame; call once for each.
+  void add_key_frame(ScanContext context) { contexts_.add(std::move(context)); }
+
+  /// Looks for loops that end at the newest key frame and adds accepted ones to the graph. The
+  /// graph is optimised, and a loop that the others contradict is taken out again. Returns every
+  /// candidate that was verified.
+  std::vector<LoopReport> close(std::span<const KeyFrame> key_frames, PoseGraph& graph);
+
+ private:
+  std::vector<LoopCandidate> candidates(std::span<const KeyFrame> key_frames,
+                                        const PoseGraph& graph) const;
+  LoopVerification verify(const LoopCandidate& candidate, std::span<const KeyFrame> key_frames,
+                          const PoseGraph& graph) const;
+
+  LoopSettings settings_;
+  GraphSettings graph_settings_;
+  double range_noise_;
+  ScanContextIndex contexts_;
+  double last_loop_travelled_ = -1e9;  // m along the path
+};
+
+}  // namespace lego_loam_sc

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slam/make_key_frame.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mapping/voxel_filter.hpp"
+#include "odometry/deskew.hpp"
+
+namespace lego_loam_sc {
+namespace {
+
+std::vector<PackedPoint> thin_out(const std::vector<FeaturePoint>& points, double spacing) {
+  std::vector<PackedPoint> packed;
+  for (const FeaturePoint& p :
+       voxel_filter(points, spacing, [](const FeaturePoint& q) { return q.position; }))
+    packed.push_back(pack(p.position, p.intensity));
+  return packed;
+}
+
+float age_span(const RangeImage& image) {
+  float span = 0.0f;
+  for (const float age : image.age) span = std::max(span, std::abs(age));
+  return span;
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector3f> deskewed_points(const RangeImage& image, const Vector6& twist) {
+  const float span = age_span(image);
+  if (span == 0.0f) return image.points;
+  const SweepMotion motion(twist, span);
+  std::vector<Eigen::Vector3f> points(image.size());
+  for (std::size_t i = 0; i < points.size(); ++i) points[i] = motion(image.points[i], image.age[i]);
+  return points;
+}
+
+KeyFrame make_key_frame(const RangeImage& image, const Segmentation& segmentation,
+                        const Features& deskewed, const Vector6& twist, double travelled,
+                        double spacing) {
+  KeyFrame key_frame;
+  key_frame.reference_ns = image.reference_ns;
+  key_frame.travelled = travelled;
+  key_frame.planars = thin_out(deskewed.planars_large, spacing);
+  key_frame.edges = thin_out(deskewed.edges_large, spacing);
+
+  // What the features leave out, in voxels that they have not taken.
+  VoxelTable<char> taken;
+  const auto take = [&](const Eigen::Vector3f& p) {
+    const auto key = key_of(p.cast<double>() / spacing);
+    return key && taken.find_or_insert(*key).second;
+  };
+  for (const auto* cloud : {&key_frame.planars, &key_frame.edges})
+    for (const PackedPoint& p : *cloud) take(p.position());
+  const std::vector<Eigen::Vector3f> points = deskewed_points(image, twist);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (segmentation.label[i] != Label::outlier && take(points[i]))
+      key_frame.others.push_back(pack(points[i], image.intensity[i]));
+  return key_frame;
+}
+
+}  // namespace lego_loam_sc

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/pose.hpp"
+#include "core/status.hpp"
+#include "loop/loop_candidate.hpp"
+#include "loop/loop_verifier.hpp"
+
+namespace lego_loam_sc {
+
+/// What became of a loop candidate; a row of loops.csv.
+struct LoopReport {
+  LoopCandidate candidate;
+  int query_scan = 0;
+  int match_scan = 0;
+  LoopVerification verification;
+};
+
+/// The stages of paper figure 4, for the times that they take.
+enum class Stage { projection, segmentation, features, odometry, mapping, loops };
+constexpr int kStages = 6;
+
+/// What became of a scan; a row of scans.csv.
+struct ScanReport {
+  int index = 0;
+  std::int64_t stamp_ns = 0;
+  Status status = Status::ok;
+  Pose T_odom_lidar = Pose::Identity();  ///< live pose at the stamp, before any loop
+
+  std::size_t points = 0;
+  std::size_t ground_points = 0;
+  std::size_t segment_points = 0;
+  int clusters = 0;
+  std::size_t edges_sharp = 0, planars_flat = 0, edges_large = 0, planars_large = 0;
+
+  int odometry_edges = 0, odometry_planars = 0, odometry_iterations = 0;
+
+  bool mapped = false;
+  int map_points = 0, map_matches = 0, map_iterations = 0;
+  double map_rmse = 0.0;  ///< m
+  int degenerate_translations = 0, degenerate_rotations = 0;
+  double least_translation_strength = 0.0, least_rotation_strength = 0.0;
+
+  int key_frame = -1;  ///< its number when the scan is one
+  std::vector<LoopReport> loops;
+  bool corrected = false;  ///< a loop moved the poses
+
+  std::array<double, kStages> milliseconds{};  ///< wall time by stage
+};
+
+}  // namespace lego_loam_sc

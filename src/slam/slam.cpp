@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slam/slam.hpp"
+
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "features/features.hpp"
+#include "mapping/mapper.hpp"
+#include "odometry/deskew.hpp"
+#include "odometry/odometry.hpp"
+#include "segmentation/ground.hpp"
+#include "segmentation/range_image.hpp"
+#include "segmentation/segmentation.hpp"
+#include "slam/edge_covariance.hpp"
+#include "slam/loop_closer.hpp"
+#include "slam/make_key_frame.hpp"
+#include "slam/stage_timer.hpp"
+#include "slam/transform_fusion.hpp"
+
+namespace lego_loam_sc {
+namespace {
+
+// Scans with fewer points than this are not worth matching.
+constexpr std::size_t kMinPoints = 100;
+
+const Settings& checked(const SensorModel& sensor, const Settings& settings) {
+  if (const auto fault = validate(sensor)) throw std::invalid_argument(*fault);
+  if (const auto fault = validate(settings)) throw std::invalid_argument(*fault);
+  return settings;
+}
+
+Features deskewed(const Features& features, const Vector6& twist) {
+  return {deskew(features.edges_sharp, twist), deskew(features.planars_flat, twist),
+          deskew(features.edges_large, twist), deskew(features.planars_large, twist)};
+}
+
+double seconds_between(std::int64_t from_ns, std::int64_t to_ns) {
+  return 1e-9 * static_cast<double>(to_ns - from_ns);
+}
+
+}  // namespace
+
+struct Slam::State {
+  State(const SensorModel& sensor_model, const Settings& slam_settings, int threads)
+      : sensor(sensor_model),
+        settings(checked(sensor_model, slam_settings)),
+        arena(std::max(threads, 1)),
+        height(sensor.height),
+        odometry(settings.odometry, sensor.range_noise),
+        mapper(settings.mapping, sensor.range_noise),
+        loop_closer(settings.loop, settings.graph, sensor.range_noise),
+        graph(settings.graph) {}
+
+  ScanReport process(const Scan& scan);
+  Motion predict_and_match(const Features& features, double seconds, ScanReport& report);
+  MapMatch refine(const Features& features, const Motion& motion, double seconds,
+                  ScanReport& report);
+  bool is_key_frame(const Pose& pose) const;
+  void add_key_frame(KeyFrame key_frame, const MapMatch& match, ScanContext context);
+  void close_loops(ScanReport& report);
+  void rebuild_local_map();
+
+  SensorModel sensor;
+  Settings settings;
+  tbb::task_arena arena;
+
+  double height;  // m, 0 = not known yet
+  Odometry odometry;
+  Mapper mapper;
+  LoopCloser loop_closer;
+  PoseGraph graph;
+  TransformFusion fusion;
+  std::vector<KeyFrame> key_frames;
+  std::vector<int> scan_of_key_frame;
+  Trajectory live;
+
+  // The last scan that was not out of order, at its reference time.
+  int scans = 0;
+  std::int64_t stamp_ns = 0;
+  std::int64_t reference_ns = 0;
+  Pose T_map_lidar = Pose::Identity();
+  Pose T_odom_lidar = Pose::Identity();
+  Vector6 twist = Vector6::Zero();  // m/s, rad/s
+  double travelled = 0.0;           // m
+};
+
+// Paper figure 4.
+ScanReport Slam::State::process(const Scan& scan) {
+  ScanReport report;
+  report.index = scans++;
+  report.stamp_ns = scan.stamp_ns;
+  report.T_odom_lidar = T_odom_lidar;
+  const bool first = live.empty();
+  if (!first && scan.stamp_ns <= stamp_ns) {
+    report.status = Status::out_of_order;
+    return report;
+  }
+  StageTimer timer(report.milliseconds);
+
+  timer.start(Stage::projection);
+  const RangeImage image = project(scan, sensor);
+  report.points = image.size();
+  if (height == 0.0)
+    height = estimate_sensor_height(image, sensor, settings.segmentation).value_or(0.0);
+
+  timer.start(Stage::segmentation);
+  const Segmentation segmentation = segment(image, sensor, height, settings.segmentation);
+  report.ground_points = segmentation.ground_points;
+  report.segment_points = segmentation.segment_points;
+  report.clusters = segmentation.clusters;
+
+  timer.start(Stage::features);
+  const Features features = extract_features(image, segmentation, sensor, settings.features);
+  report.edges_sharp = features.edges_sharp.size();
+  report.planars_flat = features.planars_flat.size();
+  report.edges_large = features.edges_large.size();
+  report.planars_large = features.planars_large.size();
+  if (report.points < kMinPoints) report.status = Status::too_few_points;
+
+  // Two scans with sweeps of different length may have reference times out of order.
+  const double seconds =
+      first ? sensor.period : std::max(seconds_between(reference_ns, image.reference_ns), 1e-3);
+
+  timer.start(Stage::odometry);
+  const Motion motion = predict_and_match(features, seconds, report);
+
+  timer.start(Stage::mapping);
+  const MapMatch match = refine(features, motion, seconds, report);
+
+  // The same motion carries the live pose on, which no loop ever moves.
+  const Pose T_previous_current = T_map_lidar.inverse() * match.T_map_lidar;
+  T_odom_lidar = normalized(T_odom_lidar * T_previous_current);
+  if (!first) twist = log_se3(motion.T_previous_current) / seconds;
+  if (match.matched && settings.mapping.every == 1) twist = log_se3(T_previous_current) / seconds;
+  T_map_lidar = match.T_map_lidar;
+  travelled += T_previous_current.translation().norm();
+  stamp_ns = scan.stamp_ns;
+  reference_ns = image.reference_ns;
+
+  const Features features_deskewed = deskewed(features, twist);
+  odometry.set_previous(features_deskewed);
+  const bool good = report.status == Status::ok || report.status == Status::degenerate;
+  if (good && report.mapped) mapper.insert(features_deskewed, T_map_lidar);
+
+  timer.start(Stage::loops);
+  if (first || (good && report.mapped && is_key_frame(T_map_lidar))) {
+    report.key_frame = static_cast<int>(key_frames.size());
+    scan_of_key_frame.push_back(report.index);
+    add_key_frame(make_key_frame(image, segmentation, features_deskewed, twist, travelled,
+                                 settings.key_frames.point_spacing),
+                  match,
+                  make_scan_context(deskewed_points(image, twist), height,
+                                    settings.loop.scan_context));
+    close_loops(report);
+  }
+
+  const Pose T_reference_stamp = exp_se3(twist * seconds_between(reference_ns, stamp_ns));
+  report.T_odom_lidar = T_odom_lidar * T_reference_stamp;
+  live.push_back({stamp_ns, report.T_odom_lidar});
+  fusion.add(stamp_ns, static_cast<int>(key_frames.size()) - 1,
+             graph.poses().back().inverse() * T_map_lidar * T_reference_stamp);
+  return report;
+}
+
+// LiDAR odometry, 2.3 (3), from the prediction that the last motion goes on.
+Motion Slam::State::predict_and_match(const Features& features, double seconds,
+                                      ScanReport& report) {
+  Motion motion;
+  motion.T_previous_current = exp_se3(twist * seconds);
+  if (live.empty() || report.status != Status::ok) return motion;
+  motion = odometry.estimate(features, motion.T_previous_current, seconds);
+  report.odometry_edges = motion.edges;
+  report.odometry_planars = motion.planars;
+  report.odometry_iterations = motion.iterations;
+  return motion;
+}
+
+// LiDAR mapping, 2.3 (4): the first scan makes the map, every n-th of the others is matched with it.
+MapMatch Slam::State::refine(const Features& features, const Motion& motion, double seconds,
+                             ScanReport& report) {
+  MapMatch match;
+  match.T_map_lidar = live.empty() ? Pose::Identity() : T_map_lidar * motion.T_previous_current;
+  if (report.status != Status::ok || report.index % settings.mapping.every != 0) return match;
+  report.mapped = true;
+  if (mapper.empty()) return match;
+
+  match = mapper.refine(features, {match.T_map_lidar, motion.T_previous_current, seconds});
+  report.map_points = match.points;
+  report.map_matches = match.matches;
+  report.map_iterations = match.iterations;
+  report.map_rmse = match.rmse;
+  report.degenerate_translations = match.localizability.degenerate_translations;
+  report.degenerate_rotations = match.localizability.degenerate_rotations;
+  report.least_translation_strength = match.localizability.translation[0];
+  report.least_rotation_strength = match.localizability.rotation[0];
+  if (!match.matched) {
+    report.status = Status::lost;
+  } else if (match.localizability.degenerate()) {
+    report.status = Status::degenerate;
+  }
+  return match;
+}
+
+bool Slam::State::is_key_frame(const Pose& pose) const {
+  const Pose since = graph.poses().back().inverse() * pose;
+  return since.translation().norm() >= settings.key_frames.distance ||
+         rotation_angle(since) >= radians(settings.key_frames.rotation_deg);
+}
+
+void Slam::State::add_key_frame(KeyFrame key_frame, const MapMatch& match, ScanContext context) {
+  const int number = static_cast<int>(key_frames.size());
+  if (number == 0) {
+    graph.add_first(match.T_map_lidar);
+  } else {
+    const Matrix6 covariance = odometry_covariance(
+        match.covariance, match.T_map_lidar.linear(), match.localizability, settings.graph);
+    graph.add_key_frame({number - 1, number, graph.poses().back().inverse() * match.T_map_lidar,
+                         covariance});
+  }
+  key_frames.push_back(std::move(key_frame));
+  loop_closer.add_key_frame(std::move(context));
+}
+
+// Loop closing, 2.3 (5) and (6); a correction reaches the current pose and the local map at once
+// and all other poses through transform fusion.
+void Slam::State::close_loops(ScanReport& report) {
+  report.loops = loop_closer.close(key_frames, graph);
+  for (LoopReport& loop : report.loops) {
+    loop.query_scan = scan_of_key_frame[loop.candidate.query];
+    loop.match_scan = scan_of_key_frame[loop.candidate.match];
+    report.corrected |= loop.verification.verdict == Verdict::accepted;
+  }
+  if (!report.corrected) return;
+  T_map_lidar = graph.poses().back();
+  rebuild_local_map();
+}
+
+void Slam::State::rebuild_local_map() {
+  mapper.clear();
+  const Eigen::Vector3d here = T_map_lidar.translation();
+  for (std::size_t k = 0; k < key_frames.size(); ++k) {
+    const Pose& T_map_key = graph.poses()[k];
+    if ((T_map_key.translation() - here).norm() > settings.mapping.radius) continue;
+    Features features;
+    features.planars_large = unpack(key_frames[k].planars);
+    features.edges_large = unpack(key_frames[k].edges);
+    mapper.insert(features, T_map_key);
+  }
+}
+
+Slam::Slam(const SensorModel& sensor, const Settings& settings, int threads)
+    : state_(std::make_unique<State>(sensor, settings, threads)) {}
+Slam::~Slam() = default;
+Slam::Slam(Slam&&) noexcept = default;
+Slam& Slam::operator=(Slam&&) noexcept = default;
+
+ScanReport Slam::process(const Scan& scan) {
+  return state_->arena.execute([&] { return state_->process(scan); });
+}
+
+const Trajectory& Slam::odometry() const { return state_->live; }
+Trajectory Slam::trajectory() const { return state_->fusion.fuse(state_->graph.poses()); }
+const std::vector<KeyFrame>& Slam::key_frames() const { return state_->key_frames; }
+const PoseGraph& Slam::graph() const { return state_->graph; }
+double Slam::sensor_height() const { return state_->height; }
+
+}  // namespace lego_loam_sc

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/scan.hpp"
+#include "core/sensor_model.hpp"
+#include "core/settings.hpp"
+#include "core/trajectory.hpp"
+#include "graph/pose_graph.hpp"
+#include "loop/key_frame.hpp"
+#include "slam/report.hpp"
+
+namespace lego_loam_sc {
+
+/// LeGO-LOAM-SC: takes the scans of one LiDAR in the order of time and keeps the trajectory, the
+/// key frames and the pose graph. The map frame is the sensor's frame at the first scan. The same
+/// scans and settings give the same results to the bit, for any number of threads.
+class Slam {
+ public:
+  /// `threads` bounds all threads that work is spread over. Throws std::invalid_argument when the
+  /// sensor or a setting is not valid.
+  Slam(const SensorModel& sensor, const Settings& settings, int threads = 1);
+  ~Slam();
+  Slam(Slam&&) noexcept;
+  Slam& operator=(Slam&&) noexcept;
+
+  /// Processes the next scan. Whatever the scan holds, this returns; see Status.
+  ScanReport process(const Scan& scan);
+
+  /// Poses of all scans but those out of order: live as they were (before any loop) and final
+  /// (after all loops).
+  const Trajectory& odometry() const;
+  Trajectory trajectory() const;
+
+  const std::vector<KeyFrame>& key_frames() const;
+  const PoseGraph& graph() const;
+
+  /// The sensor's height above the ground, m: as the sensor model says or as estimated; 0 while
+  /// unknown.
+  double sensor_height() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace lego_loam_sc

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/trajectory.hpp"
+
+namespace lego_loam_sc {
+
+/// Transform fusion of paper figure 4: every scan hangs on a key frame, so that each correction of
+/// the key frames by the pose graph reaches all scans.
+class TransformFusion {
+ public:
+  /// Adds the next scan: `key_frame` is the one it hangs on and `T_key_scan` its pose there.
+  void add(std::int64_t stamp_ns, int key_frame, const Pose& T_key_scan);
+
+  /// The pose of every scan for the given poses of the key frames.
+  Trajectory fuse(std::span<const Pose> T_map_key) const;
+
+ private:
+  struct Entry {
+    std::int64_t stamp_ns;
+    int key_frame;
+    Pose T_key_scan;
+  };
+  std::vector<Entry> entries_;
+};
+
+}  // namespace lego_loam_sc

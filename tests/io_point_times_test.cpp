@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "io/point_times.hpp"
+#include "io_test_files.hpp"
+
+namespace lego_loam_sc {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::int64_t kStamp = 1'600'000'000'000'000'000;
+
+PointTimes interpret(const std::vector<double>& times, const StampHint& hint = {kStamp, true, {}},
+                     NumberType type = NumberType::float64) {
+  return interpret_point_times(times, type, hint, "a.pcd");
+}
+
+using Offsets = std::vector<std::int32_t>;
+
+TEST(PointTimes, TheSpanDecidesTheUnit) {
+  const Offsets expected = {0, 50'000'000, 100'000'000};
+  EXPECT_EQ(interpret({0, 0.05, 0.1}).offset_ns, expected);
+  EXPECT_EQ(interpret({0, 50, 100}).offset_ns, expected);
+  EXPECT_EQ(interpret({0, 5e4, 1e5}).offset_ns, expected);
+  EXPECT_EQ(interpret({0, 5e7, 1e8}).offset_ns, expected);
+  EXPECT_EQ(interpret({0, 5e7, 1e8}).stamp_ns, kStamp);
+}
+
+TEST(PointTimes, RelativeTimesMayLieBeforeTheStamp) {
+  EXPECT_EQ(interpret({-0.1, 0}).offset_ns, (Offsets{-100'000'000, 0}));
+}
+
+TEST(PointTimes, AbsoluteTimesOfTheStampsClockCountFromTheStamp) {
+  const PointTimes times =
+      interpret({1.6e18 - 5e7, 1.6e18 + 5e7}, {kStamp, true, {}}, NumberType::uint64);
+  EXPECT_EQ(times.stamp_ns, kStamp);
+  ASSERT_EQ(times.offset_ns.size(), 2U);  // a double of this size is good to 256 ns
+  EXPECT_NEAR(times.offset_ns[0], -50'000'000, 256);
+  EXPECT_NEAR(times.offset_ns[1], 50'000'000, 256);
+}
+
+TEST(PointTimes, AbsoluteTimesOfAnotherClockCountFromTheFirst) {
+  const PointTimes times = interpret({1234.6, 1234.5}, {7, true, {}});
+  EXPECT_EQ(times.stamp_ns, 7);
+  EXPECT_NEAR(times.offset_ns[0], 100'000'000, 1);
+  EXPECT_EQ(times.offset_ns[1], 0);
+}
+
+TEST(PointTimes, AbsoluteTimesReplaceAStampThatWasMadeUp) {
+  const PointTimes times = interpret({1.6e9 + 0.5, 1.6e9 + 0.625}, {0, false, {}});
+  EXPECT_EQ(times.stamp_ns, kStamp + 500'000'000);
+  EXPECT_EQ(times.offset_ns, (Offsets{0, 125'000'000}));
+}
+
+TEST(PointTimes, EqualOrMissingTimesAreNone) {
+  EXPECT_TRUE(interpret({}).offset_ns.empty());
+  EXPECT_TRUE(interpret({0, 0, 0}).offset_ns.empty());
+  EXPECT_TRUE(interpret({kNan, 5.0}).offset_ns.empty());
+}
+
+TEST(PointTimes, PointsWithoutReturnDoNotCount) {
+  EXPECT_EQ(interpret({kNan, 0.02, 0.1}).offset_ns, (Offsets{0, 20'000'000, 100'000'000}));
+}
+
+TEST(PointTimes, AskForTheUnitWhenNoneFits) {
+  const std::string message = error_of([] { interpret({0, 5}); });
+  EXPECT_NE(message.find("a.pcd: the times of the points run from 0 to 5"), message.npos);
+  EXPECT_NE(message.find("point_times"), message.npos);
+  const std::string coarse =
+      error_of([] { interpret({1.6e9, 1.6e9 + 128}, {kStamp, true, {}}, NumberType::float32); });
+  EXPECT_NE(coarse.find("float32"), coarse.npos);
+}
+
+TEST(PointTimes, TheUnitCanBeGiven) {
+  EXPECT_EQ(interpret({0, 5}, {0, true, TimeUnit::milliseconds}).offset_ns,
+            (Offsets{0, 5'000'000}));
+  EXPECT_TRUE(interpret({0, 5}, {0, true, TimeUnit::none}).offset_ns.empty());
+  EXPECT_THROW(interpret({0, 5}, {0, true, TimeUnit::seconds}), InputError);
+}
+
+TEST(PointTimes, SaysWhatWasDecided) {
+  EXPECT_EQ(interpret({0, 1e5}).decision,
+            "the times of the points are microseconds from the stamp of the scan, a sweep lasts "
+            "100.0 ms");
+}
+
+TEST(PointTimes, NoNumbersOverflow) {
+  const double huge = std::numeric_limits<double>::max();
+  EXPECT_THROW(interpret({-huge, huge}), InputError);
+  EXPECT_THROW(interpret({-huge, huge}, {0, true, TimeUnit::nanoseconds}), InputError);
+  const PointTimes late = interpret({1e18, 1e18 + 128}, {0, false, TimeUnit::milliseconds});
+  EXPECT_EQ(late.offset_ns, (Offsets{0, 128'000'000}));
+  EXPECT_EQ(late.stamp_ns, 0);
+}
+
+}  // namespace
+}  // namespace lego_loam_sc

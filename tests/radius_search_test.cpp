@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loop/radius_search.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <utility>
+#include <vector>
+
+namespace lego_loam_sc {
+namespace {
+
+Pose at(double x, double y, double z) {
+  return Pose(Eigen::Translation3d(x, y, z));
+}
+
+TEST(RadiusSearch, FindsWhatASearchThroughAllKeyFramesFinds) {
+  std::mt19937 random(1);
+  std::uniform_int_distribution<int> metres(-6, 6);  // whole numbers: many equal distances
+  std::vector<Pose> poses;
+  for (int i = 0; i < 400; ++i)
+    poses.push_back(at(1e5 + metres(random), metres(random), metres(random)));
+  RadiusSearchSettings settings;
+  settings.radius = 5.0;
+  for (const int wanted : {1, 3, 1000}) {
+    settings.candidates = wanted;
+    for (const int eligible : {0, 1, 200, 399}) {
+      std::vector<std::pair<double, int>> expected;
+      for (int i = 0; i < eligible; ++i) {
+        const double distance = (poses[i].translation() - poses[399].translation()).norm();
+        if (distance <= 5.0) expected.emplace_back(distance, i);
+      }
+      std::sort(expected.begin(), expected.end());
+      expected.resize(std::min<std::size_t>(expected.size(), wanted));
+      const std::vector<LoopCandidate> found = search_radius(poses, 399, eligible, settings);
+      ASSERT_EQ(found.size(), expected.size());
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        EXPECT_EQ(found[i].query, 399);
+        EXPECT_EQ(found[i].match, expected[i].second);
+        EXPECT_EQ(found[i].distance, expected[i].first);
+        EXPECT_EQ(found[i].detector, LoopCandidate::Detector::radius);
+      }
+    }
+  }
+}
+
+TEST(RadiusSearch, CountsHeightAsDistance) {
+  const std::vector<Pose> poses = {at(0, 0, 0), at(1, 0, 12), at(0, 0, 12)};
+  RadiusSearchSettings settings;
+  settings.radius = 10.0;
+  const std::vector<LoopCandidate> found = search_radius(poses, 2, 2, settings);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].match, 1);
+}
+
+}  // namespace
+}  // namespace lego_loam_sc

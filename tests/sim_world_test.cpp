@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "io/error.hpp"
+#include "sim/ray_caster.hpp"
+#include "sim/world.hpp"
+
+namespace lego_loam_sc {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::int64_t second = 1'000'000'000;
+
+double path_length(const Drive& drive) {
+  double length = 0.0;
+  for (std::int64_t t = 0; t < drive.duration_ns(); t += second / 10)
+    length += (drive.pose(t + second / 10).translation() - drive.pose(t).translation()).norm();
+  return length;
+}
+
+class SimWorld : public testing::TestWithParam<std::string_view> {};
+
+INSTANTIATE_TEST_SUITE_P(All, SimWorld,
+                         testing::ValuesIn(world_names().begin(), world_names().end()),
+                         [](const auto& name) { return std::string(name.param); });
+
+TEST_P(SimWorld, IsDecidedByItsSeed) {
+  const World first = make_world(GetParam(), 3), again = make_world(GetParam(), 3);
+  EXPECT_EQ(first.mesh.vertices, again.mesh.vertices);
+  EXPECT_EQ(first.mesh.triangles, again.mesh.triangles);
+  EXPECT_EQ(first.mesh.reflectivity, again.mesh.reflectivity);
+  EXPECT_TRUE(first.drive.pose(10 * second).isApprox(again.drive.pose(10 * second), 0.0));
+  EXPECT_NE(first.mesh.vertices, make_world(GetParam(), 4).mesh.vertices);
+}
+
+TEST_P(SimWorld, MeshIsSound) {
+  const Mesh mesh = make_world(GetParam(), 1).mesh;
+  EXPECT_EQ(mesh.triangles.size(), mesh.reflectivity.size());
+  EXPECT_LT(mesh.triangles.size(), 1'000'000u);
+  for (const auto& triangle : mesh.triangles)
+    for (const std::uint32_t vertex : triangle) ASSERT_LT(vertex, mesh.vertices.size());
+  for (const Eigen::Vector3f& vertex : mesh.vertices) ASSERT_TRUE(vertex.allFinite());
+  EXPECT_TRUE(std::ranges::all_of(mesh.reflectivity, [](float r) { return r > 0 && r <= 1; }));
+}
+
+TEST_P(SimWorld, LeavesTheVehicleRoomOnFirmGround) {
+  World world = make_world(GetParam(), 1);
+  const RayCaster caster(std::move(world.mesh));
+  for (std::int64_t t = 0; t < world.drive.duration_ns(); t += second / 2) {
+    const Pose T_world_vehicle = world.drive.pose(t);
+    const Vector3d sensor = T_world_vehicle * Vector3d(0, 0, world.sensor_height);
+    const auto ground = caster.cast(sensor, -T_world_vehicle.linear().col(2), 10.0);
+    ASSERT_TRUE(ground) << "no ground at " << sensor.transpose();
+    EXPECT_NEAR(ground->range, world.sensor_height, 0.06) << "at " << sensor.transpose();
+    for (int deg = 0; deg < 360; deg += 5) {
+      const Vector3d direction(std::cos(radians(deg)), std::sin(radians(deg)), 0.0);
+      for (const double height : {0.5, world.sensor_height})
+        EXPECT_FALSE(caster.cast(T_world_vehicle * Vector3d(0, 0, height),
+                                 T_world_vehicle.linear() * direction, 1.4))
+            << "an obstacle at " << sensor.transpose() << ", " << deg << " deg";
+    }
+  }
+}
+
+TEST_P(SimWorld, HasStructureOnAllSidesOfTheVehicle) {
+  World world = make_world(GetParam(), 1);
+  const RayCaster caster(std::move(world.mesh));
+  for (std::int64_t t = 0; t < world.drive.duration_ns(); t += 5 * second) {
+    const Pose pose = world.drive.pose(t);
+    const Vector3d sensor = pose * Vector3d(0, 0, world.sensor_height);
+    for (int side = 0; side < 4; ++side) {
+      int walls = 0;
+      for (int deg = -45; deg < 45; ++deg) {
+        const double azimuth = radians(90.0 * side + deg);
+        const Vector3d direction(std::cos(azimuth), std::sin(azimuth), 0.0);
+        walls += caster.cast(sensor, pose.linear() * direction, 60.0).has_value();
+      }
+      EXPECT_GT(walls, 20) << "at " << sensor.transpose() << ", side " << side;
+    }
+  }
+}
+
+TEST(SimCarPark, DriveIsALoopThatEndsExactlyAtItsStart) {
+  const Drive drive = make_world("parking", 1).drive;
+  EXPECT_GT(path_length(drive), 180.0);
+  const Pose change = drive.pose(0).inverse() * drive.pose(drive.duration_ns());
+  EXPECT_LT(change.translation().norm(), 1e-9);
+  EXPECT_LT(rotation_angle(change), 1e-9);
+}
+
+TEST(SimStreet, DriveEndsOnItsFirstStreetInTheSameDirection) {
+  const Drive drive = make_world("street", 1).drive;
+  EXPECT_GT(path_length(drive), 1000.0);
+  const Pose end = drive.pose(drive.duration_ns());
+  double travelled = 0.0;
+  std::int64_t t = 0;
+  while ((drive.pose(t).inverse() * end).translation().x() > 0.0) {
+    travelled += (drive.pose(t + second / 10).translation() - drive.pose(t).translation()).norm();
+    t += second / 10;
+  }
+  EXPECT_GT(travelled, 50.0);
+  EXPECT_LT(travelled, 100.0);
+  const Pose between = drive.pose(t).inverse() * end;
+  EXPECT_LT(std::abs(between.translation().y()), 0.5);
+  EXPECT_LT(rotation_angle(between), radians(2.0));
+}
+
+TEST(SimWorldNames, AnUnknownWorldIsAnErrorThatListsTheKnownOnes) {
+  try {
+    make_world("moon", 1);
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("parking, street"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace lego_loam_sc
