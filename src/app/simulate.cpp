@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -13,6 +14,7 @@
 #include <string>
 #include <utility>
 
+#include "app/progress.hpp"
 #include "io/scan_stream.hpp"
 #include "io/sensor_yaml.hpp"
 #include "sim/kitti_folder.hpp"
@@ -54,12 +56,6 @@ DatasetFacts facts_of(const SensorModel& sensor, const std::string& name_or_file
   return facts;
 }
 
-void show_progress(std::int64_t done, std::int64_t all) {
-  if (!isatty(STDERR_FILENO)) return;
-  std::cerr << "\rsimulated " << done << " of " << all << " scans" << (done == all ? "\n" : "")
-            << std::flush;
-}
-
 void simulate(const Options& options) {
   World world = make_world(options.world, options.seed);
   const std::string sensor_name =
@@ -82,10 +78,11 @@ void simulate(const Options& options) {
   // The last scan of a whole drive is taken at rest at its end.
   const std::int64_t whole_drive = (world.drive.duration_ns() + period - 1) / period + 1;
   const std::int64_t count = options.count.value_or(whole_drive);
+  Progress progress(static_cast<std::size_t>(count), isatty(STDERR_FILENO) == 0);
   for (std::int64_t i = 0; i < count; ++i) {
     const std::int64_t stamp_ns = i * period;
     sink(sweep(caster, sensor, lidar_pose, stamp_ns, settings), lidar_pose(stamp_ns));
-    show_progress(i + 1, count);
+    progress.step();
   }
 }
 

@@ -99,6 +99,8 @@ DatasetFacts read_dataset_facts(const std::filesystem::path& folder) {
 
 SensorModel with_facts(SensorModel sensor, const DatasetFacts& facts) {
   sensor.motion_compensated = facts.motion_compensated.value_or(sensor.motion_compensated);
+  // A data set that says so holds raw sweeps; points without times then get them from the azimuth.
+  sensor.times_from_azimuth = facts.motion_compensated.has_value() && !sensor.motion_compensated;
   sensor.elevation_correction_deg =
       facts.elevation_correction_deg.value_or(sensor.elevation_correction_deg);
   return sensor;
