@@ -248,24 +248,23 @@ TEST(ScanContextIndex, FindsWhatASearchThroughAllSortedKeysFinds) {
     index.add(contexts.back());
   }
   for (const int eligible : {0, 1, 7, 8, 30, 45}) {
-    const int query = 44;
     std::vector<std::pair<double, int>> keys;
     for (int i = 0; i < eligible; ++i) {
       double squared = 0.0;
       for (int ring = 0; ring < settings.rings; ++ring)
-        squared += std::pow(contexts[i].ring_key[ring] - contexts[query].ring_key[ring], 2);
+        squared += std::pow(contexts[i].ring_key[ring] - contexts[44].ring_key[ring], 2);
       keys.emplace_back(squared, i);
     }
     std::sort(keys.begin(), keys.end());
     keys.resize(std::min<std::size_t>(keys.size(), 4));
     std::vector<std::pair<double, int>> expected;
     for (const auto& [squared, i] : keys) {
-      const double distance = compare(contexts[query], contexts[i]).distance;
+      const double distance = compare(contexts[44], contexts[i]).distance;
       if (distance < settings.threshold) expected.emplace_back(distance, i);
     }
     std::sort(expected.begin(), expected.end());
-    const std::vector<LoopCandidate> found = index.search(query, eligible);
-    ASSERT_EQ(found.size(), expected.size()) << eligible;
+    const std::vector<LoopCandidate> found = index.search(44, eligible);
+    ASSERT_EQ(found.size(), expected.size());
     for (std::size_t i = 0; i < found.size(); ++i) {
       EXPECT_EQ(found[i].match, expected[i].second);
       EXPECT_EQ(found[i].distance, expected[i].first);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/interrupt.hpp"
 
+#include <signal.h>
+
 #include <csignal>
 
 namespace lego_loam_sc {
@@ -8,18 +10,32 @@ namespace {
 
 volatile std::sig_atomic_t asked_to_end = 0;
 
-void ask_to_end(int signal) {
+void ask_to_end(int number) {
   asked_to_end = 1;
-  std::signal(signal, SIG_DFL);
+  signal(number, SIG_DFL);
+}
+
+void do_nothing(int) {}
+
+// Without SA_RESTART, so that a read which waits for the next scan of a stream ends.
+void handle(int number, void (*handler)(int)) {
+  struct sigaction action = {};
+  action.sa_handler = handler;
+  sigaction(number, &action, nullptr);
 }
 
 }  // namespace
 
 void catch_interrupts() {
-  std::signal(SIGINT, ask_to_end);
-  std::signal(SIGTERM, ask_to_end);
+  handle(SIGINT, ask_to_end);
+  handle(SIGTERM, ask_to_end);
 }
 
 bool interrupted() { return asked_to_end != 0; }
+
+void end_read(std::thread& thread) {
+  handle(SIGUSR1, do_nothing);
+  pthread_kill(thread.native_handle(), SIGUSR1);
+}
 
 }  // namespace lego_loam_sc

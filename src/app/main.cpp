@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
@@ -18,6 +19,8 @@ constexpr int kBadUsage = 2;
 
 int main(int argc, char** argv) {
   using namespace lego_loam_sc;
+  // Standard output is for results: a scan stream, JSON, settings.
+  spdlog::set_default_logger(spdlog::stderr_color_mt("lego-loam-sc"));
   spdlog::set_pattern("lego-loam-sc: %v");
 
   CLI::App app{"LiDAR-only SLAM: LeGO-LOAM with Scan Context loops."};
@@ -31,7 +34,12 @@ int main(int argc, char** argv) {
   add_config(app);
   app.footer("Any other verb runs lego-loam-sc-VERB from PATH.");
 
-  if (argc > 1 && !is_known_verb(app, argv[1])) run_external(argv);  // returns when there is none
+  if (argc > 1 && !is_known_verb(app, argv[1])) {
+    run_external(argv);  // returns when there is none
+    spdlog::error("there is no verb {0} and no program lego-loam-sc-{0} in PATH; see --help",
+                  argv[1]);
+    return kBadUsage;
+  }
   try {
     app.parse(argc, argv);
     return exit_code;

@@ -111,13 +111,12 @@ Resources used_resources() {
           static_cast<double>(usage.ru_maxrss) / 1024.0};
 }
 
-nlohmann::ordered_json errors_against(const std::filesystem::path& truth,
-                                      const Trajectory& odometry, const Trajectory& trajectory) {
-  const PoseFile file = read_poses(truth);
+nlohmann::ordered_json errors_against(const NamedTruth& truth, const Trajectory& odometry,
+                                      const Trajectory& trajectory) {
   nlohmann::ordered_json errors;
-  errors["truth"] = truth.string();
-  errors["trajectory"] = to_json(evaluate(associate(file, {trajectory, true})));
-  errors["odometry"] = to_json(evaluate(associate(file, {odometry, true})));
+  errors["truth"] = truth.file;
+  errors["trajectory"] = to_json(evaluate(associate(truth.poses, {trajectory, true})));
+  errors["odometry"] = to_json(evaluate(associate(truth.poses, {odometry, true})));
   return errors;
 }
 

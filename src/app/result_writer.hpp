@@ -11,10 +11,16 @@
 #include "core/settings.hpp"
 #include "io/append_file.hpp"
 #include "io/dataset_facts.hpp"
+#include "io/trajectory.hpp"
 #include "slam/report.hpp"
 #include "slam/slam.hpp"
 
 namespace lego_loam_sc {
+
+struct NamedTruth {
+  std::string file;
+  PoseFile poses;
+};
 
 /// What `summary.json` says of the run besides what the SLAM knows.
 struct RunFacts {
@@ -25,7 +31,7 @@ struct RunFacts {
   double wall_seconds = 0.0;
   bool interrupted = false;
   std::vector<std::string> faults;  ///< of the input, a sentence each
-  std::optional<std::filesystem::path> truth;
+  std::optional<NamedTruth> truth;
 };
 
 /// Writes the folder of a run: scans.csv, loops.csv and odometry.tum as results come, the rest at
@@ -36,7 +42,9 @@ class ResultWriter {
 
   void add(const ScanReport& report);
 
-  /// Writes the files that need the whole run. Returns the summary as text for the terminal.
+  /// Writes the files that need the whole run. Returns the summary as text for the terminal. Throws
+  /// InputError when a file cannot be written and, after all are, when the truth is of another
+  /// recording.
   std::string finish(const Slam& slam, const DatasetFacts& dataset, const RunFacts& facts);
 
  private:

@@ -20,6 +20,7 @@
 #include "io/scan_source.hpp"
 #include "io/sensor_yaml.hpp"
 #include "io/settings_yaml.hpp"
+#include "io/trajectory.hpp"
 #include "slam/slam.hpp"
 
 namespace lego_loam_sc {
@@ -70,6 +71,7 @@ void note_fault(const std::string& sentence, RunFacts& facts) {
 std::optional<Scan> first_scan(Input& input, RunFacts& facts) {
   while (auto item = input.next()) {
     if (auto* scan = std::get_if<Scan>(&*item)) return std::move(*scan);
+    if (interrupted()) return std::nullopt;  // it cut the read off, the input is not to blame
     note_fault(std::get<std::string>(*item), facts);
   }
   return std::nullopt;
@@ -77,8 +79,8 @@ std::optional<Scan> first_scan(Input& input, RunFacts& facts) {
 
 SensorModel choose_sensor(const Scan& scan, const DatasetFacts& dataset,
                           const std::optional<std::string>& asked) {
-  if (!asked) return recognise_sensor(scan, dataset);
-  const SensorModel sensor = with_facts(load_sensor(*asked), dataset);
+  const SensorModel sensor =
+      asked ? with_facts(load_sensor(*asked), dataset) : recognise_sensor(scan, dataset);
   if (const auto mismatch = sensor_mismatch(scan, sensor)) throw InputError(*mismatch);
   return sensor;
 }
@@ -98,7 +100,7 @@ void run(const Options& options, int& exit_code) {
   facts.input = options.input;
   facts.method = common.method;
   facts.threads = options.threads;
-  facts.truth = options.truth;
+  if (options.truth) facts.truth = {options.truth->string(), read_poses(*options.truth)};
 
   Input input(options);
   std::optional<Scan> scan = first_scan(input, facts);

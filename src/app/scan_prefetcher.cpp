@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/scan_prefetcher.hpp"
 
+#include <chrono>
 #include <utility>
 
+#include "app/interrupt.hpp"
 #include "io/error.hpp"
 
 namespace lego_loam_sc {
+namespace {
+
+// Nobody rings a bell when a signal comes.
+constexpr std::chrono::milliseconds kGlance(50);
+
+}  // namespace
 
 std::optional<ScanOrFault> read_next(ScanSource& source) {
   try {
@@ -19,17 +27,20 @@ std::optional<ScanOrFault> read_next(ScanSource& source) {
 ScanPrefetcher::ScanPrefetcher(ScanSource& source) : thread_([this, &source] { read(source); }) {}
 
 ScanPrefetcher::~ScanPrefetcher() {
-  {
-    const std::lock_guard lock(mutex_);
-    stopping_ = true;
-  }
+  std::unique_lock lock(mutex_);
+  stopping_ = true;
   changed_.notify_all();
+  // A stream may hold the reader for ever.
+  while (!changed_.wait_for(lock, kGlance, [&] { return ended_; })) end_read(thread_);
+  lock.unlock();
   thread_.join();
 }
 
 std::optional<ScanOrFault> ScanPrefetcher::next() {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [&] { return !queue_.empty() || ended_; });
+  const auto may_go_on = [&] { return !queue_.empty() || ended_; };
+  while (!changed_.wait_for(lock, kGlance, may_go_on))
+    if (interrupted()) return std::nullopt;
   if (queue_.empty()) return std::nullopt;
   ScanOrFault front = std::move(queue_.front());
   queue_.pop_front();

@@ -26,7 +26,8 @@ class ScanPrefetcher {
   ScanPrefetcher(const ScanPrefetcher&) = delete;
   ScanPrefetcher& operator=(const ScanPrefetcher&) = delete;
 
-  /// The next scan or fault in the order of the source; nothing after the last.
+  /// The next scan or fault in the order of the source; nothing after the last, nor when an
+  /// interrupt comes while none is there.
   std::optional<ScanOrFault> next();
 
  private:

@@ -58,6 +58,7 @@ struct FeatureSettings {
   int planars_flat = 4;
   int planars_large = 0;
   bool flat_from_ground_only = true;
+  int min_ground_flats = 100;
   double planar_spacing = 0.2;
   int suppressed_neighbours = 5;
   int max_column_gap = 10;
@@ -77,6 +78,8 @@ struct FeatureSettings {
     visit("planars_large", s.planars_large, 0, 10000,
           "planar points per row and sub-image, large set F_p; 0 = all that planar_spacing leaves");
     visit("flat_from_ground_only", s.flat_from_ground_only, "F_p is taken from the ground alone");
+    visit("min_ground_flats", s.min_ground_flats, 0, 100000,
+          "with fewer points of F_p on the ground, it is taken from everywhere after all");
     visit("planar_spacing", s.planar_spacing, 0.0, 10.0,
           "m; distance along a row between points of the large planar set");
     visit("suppressed_neighbours", s.suppressed_neighbours, 0, 20,
@@ -127,6 +130,7 @@ struct MappingSettings {
   int levels = 2;
   double radius = 100.0;
   double match_spacing = 1.0;
+  int match_points = 1000;
   int associations = 5;
   int iterations = 2;
   double max_distance = 1.5;
@@ -146,6 +150,8 @@ struct MappingSettings {
     visit("radius", s.radius, 5.0, 1000.0, "m; the local map reaches this far round the sensor");
     visit("match_spacing", s.match_spacing, 0.0, 10.0,
           "m; voxel of the filter over the points that are matched");
+    visit("match_points", s.match_points, 0, 100000,
+          "in small spaces that voxel is halved, twice at most, until this many points are left");
     visit("associations", s.associations, 1, 100, "times that correspondences are searched anew");
     visit("iterations", s.iterations, 1, 100, "Gauss-Newton steps for one association");
     visit("max_distance", s.max_distance, 0.05, 100.0,
@@ -185,6 +191,7 @@ struct ScanContextSettings {
   double max_radius = 80.0;
   int candidates = 10;
   double threshold = 0.35;
+  double reach = 10.0;
 
   template <class Self, class Visit>
   static void fields(Self& s, Visit&& visit) {
@@ -194,6 +201,8 @@ struct ScanContextSettings {
     visit("max_radius", s.max_radius, 1.0, 1000.0, "m; L_max, points beyond it are left out");
     visit("candidates", s.candidates, 1, 1000, "nearest ring keys that are compared in full");
     visit("threshold", s.threshold, 0.0, 1.0, "tau of equation (8)");
+    visit("reach", s.reach, 0.0, 10000.0,
+          "m; two visits farther apart than this, after all drift allowed for, are not verified");
   }
 };
 

@@ -198,10 +198,8 @@ void append(const RangeImage& image, int row_number, const Row& row, Features& f
   }
 }
 
-}  // namespace
-
-Features extract_features(const RangeImage& image, const Segmentation& segmentation,
-                          const SensorModel& sensor, const FeatureSettings& settings) {
+Features extract(const RangeImage& image, const Segmentation& segmentation,
+                 const SensorModel& sensor, const FeatureSettings& settings) {
   Features features;
   for (int row_number = 0; row_number < image.rows; ++row_number) {
     Row row = kept_points(image, segmentation, row_number);
@@ -212,6 +210,19 @@ Features extract_features(const RangeImage& image, const Segmentation& segmentat
     append(image, row_number, row, features);
   }
   return features;
+}
+
+}  // namespace
+
+Features extract_features(const RangeImage& image, const Segmentation& segmentation,
+                          const SensorModel& sensor, const FeatureSettings& settings) {
+  Features features = extract(image, segmentation, sensor, settings);
+  if (!settings.flat_from_ground_only ||
+      static_cast<int>(features.planars_flat.size()) >= settings.min_ground_flats)
+    return features;
+  FeatureSettings from_everywhere = settings;
+  from_everywhere.flat_from_ground_only = false;
+  return extract(image, segmentation, sensor, from_everywhere);
 }
 
 }  // namespace lego_loam_sc

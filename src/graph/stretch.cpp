@@ -23,8 +23,7 @@ Link unmoved(const PoseEdge& edge) {
 Link linearised(const PoseEdge& edge, const Pose3& relative) {
   const Vector6 residual = Pose3::Logmap(to_gtsam(edge.T_from_to).inverse() * relative);
   const Matrix6 jacobian = Pose3::ExpmapDerivative(residual);
-  return {relative, jacobian * residual,
-          jacobian * swap_blocks(edge.covariance) * jacobian.transpose()};
+  return {relative, residual, jacobian * swap_blocks(edge.covariance) * jacobian.transpose()};
 }
 
 Stretch condense(const std::vector<Link>& links, int from, int to) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include "core/settings.hpp"
@@ -19,9 +18,6 @@ class ScanContextIndex {
 
   /// Key frames are added in order: the n-th call describes key frame n, from 0.
   void add(ScanContext context);
-
-  std::size_t size() const { return contexts_.size(); }
-  const ScanContext& context(int key_frame) const { return contexts_[key_frame]; }
 
   /// Loop candidates of key frame `query` among the key frames 0 to `eligible` - 1: those of the
   /// `settings.candidates` nearest ring keys whose D is below `settings.threshold`, best first, so

@@ -18,6 +18,8 @@ constexpr double kMinScale = 0.02;
 constexpr double kMaxScale = 0.5;
 // A degenerate direction is tied to the guess with this sigma, m or rad.
 constexpr double kTied = 1e-4;
+// Times that the spacing of the points is halved in small spaces.
+constexpr int kHalvings = 2;
 // The map is searched for voxels out of reach after this share of its radius has been driven.
 constexpr double kEvictionShare = 0.1;
 
@@ -81,10 +83,14 @@ Mapper::Mapper(const MappingSettings& settings, double range_noise)
 MapMatch Mapper::refine(const Features& features, const ScanGuess& guess) {
   MapMatch match;
   match.T_map_lidar = guess.T_map_lidar;
-  const std::vector<FeaturePoint> planars =
-      thin_out(features.planars_large, settings_.match_spacing);
-  const std::vector<FeaturePoint> edges = thin_out(features.edges_large, settings_.match_spacing);
-  match.points = static_cast<int>(planars.size() + edges.size());
+  std::vector<FeaturePoint> planars, edges;
+  double spacing = settings_.match_spacing;
+  for (int k = 0; k == 0 || (k <= kHalvings && match.points < settings_.match_points);
+       ++k, spacing *= 0.5) {
+    planars = thin_out(features.planars_large, spacing);
+    edges = thin_out(features.edges_large, spacing);
+    match.points = static_cast<int>(planars.size() + edges.size());
+  }
 
   Pose pose = guess.T_map_lidar;
   const Pose T_previous_map = guess.T_previous_current * guess.T_map_lidar.inverse();

@@ -66,14 +66,14 @@ Pose keep_guess_where_degenerate(const Pose& solved, const Pose& guess, const Lo
   return perturb(guess, delta);
 }
 
-// The ground points of the large planar set when F_p comes from the ground, so that labels match.
-std::vector<FeaturePoint> ground_or_all(const Features& features) {
-  const bool any_ground = std::any_of(features.planars_flat.begin(), features.planars_flat.end(),
-                                      [](const FeaturePoint& p) { return p.label == Label::ground; });
-  if (!any_ground) return features.planars_large;
+bool all_ground(const std::vector<FeaturePoint>& points) {
+  return std::all_of(points.begin(), points.end(),
+                     [](const FeaturePoint& p) { return p.label == Label::ground; });
+}
+
+std::vector<FeaturePoint> ground_of(const std::vector<FeaturePoint>& points) {
   std::vector<FeaturePoint> ground;
-  std::copy_if(features.planars_large.begin(), features.planars_large.end(),
-               std::back_inserter(ground),
+  std::copy_if(points.begin(), points.end(), std::back_inserter(ground),
                [](const FeaturePoint& p) { return p.label == Label::ground; });
   return ground;
 }
@@ -85,7 +85,8 @@ Odometry::Odometry(const OdometrySettings& settings, double range_noise)
 
 void Odometry::set_previous(const Features& deskewed) {
   edges_.emplace(deskewed.edges_large);
-  planars_.emplace(ground_or_all(deskewed));
+  planars_.emplace(deskewed.planars_large);
+  ground_.emplace(ground_of(deskewed.planars_large));
 }
 
 Motion Odometry::estimate(const Features& features, const Pose& guess, double seconds) const {
@@ -98,9 +99,11 @@ Motion Odometry::estimate(const Features& features, const Pose& guess, double se
     return associate_edges(deskew(features.edges_sharp, log_se3(pose) / seconds), *edges_, pose,
                            settings_, range_noise_);
   };
+  const bool on_ground = all_ground(features.planars_flat);
+  const FeatureIndex& previous_planars = on_ground ? *ground_ : *planars_;
   const auto planars_at = [&](const Pose& pose) {
-    return associate_planars(deskew(features.planars_flat, log_se3(pose) / seconds), *planars_,
-                             pose, settings_, range_noise_);
+    return associate_planars(deskew(features.planars_flat, log_se3(pose) / seconds),
+                             previous_planars, pose, settings_, range_noise_);
   };
   const auto all_at = [&](const Pose& pose) {
     std::vector<Correspondence> all = planars_at(pose);
@@ -110,7 +113,7 @@ Motion Odometry::estimate(const Features& features, const Pose& guess, double se
   };
 
   Pose pose = guess;
-  if (settings_.two_step) {
+  if (settings_.two_step && on_ground) {
     motion.solved =
         refine(planars_at, kGroundUnknowns, settings_.min_planars, settings_.associations,
                settings_.iterations, pose, motion.iterations) &&

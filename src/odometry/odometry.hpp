@@ -24,6 +24,8 @@ struct Motion {
 /// Scan-to-scan odometry, paper 2.3 (3): features of the current scan, F_e and F_p, against the
 /// large feature sets of the previous one, edges with edges and ground with ground (label matching),
 /// in two Levenberg-Marquardt steps: [t_z, roll, pitch] from planes, then [t_x, t_y, yaw] from edges.
+/// When F_p is not all ground, planes fix other unknowns too, and one joint solve takes the place of
+/// the two steps.
 class Odometry {
  public:
   /// `range_noise` in m, one sigma.
@@ -42,7 +44,8 @@ class Odometry {
   OdometrySettings settings_;
   double range_noise_;
   std::optional<FeatureIndex> edges_;
-  std::optional<FeatureIndex> planars_;
+  std::optional<FeatureIndex> ground_;
+  std::optional<FeatureIndex> planars_;  // ground and all else
 };
 
 }  // namespace lego_loam_sc

@@ -77,6 +77,18 @@ LoopVerification LoopCloser::verify(const LoopCandidate& candidate,
   const std::vector<Pose>& poses = graph.poses();
   const Pose expected = poses[candidate.match].inverse() * poses[candidate.query];
 
+  const double travelled =
+      key_frames[candidate.query].travelled - key_frames[candidate.match].travelled;
+  // Far apart even if drift were at its worst: not worth an ICP.
+  if (settings.consistency_sigmas > 0.0 &&
+      expected.translation().norm() >
+          settings_.scan_context.reach +
+              settings.consistency_sigmas * settings.drift_per_metre * travelled) {
+    LoopVerification far;
+    far.verdict = Verdict::inconsistent;
+    return far;
+  }
+
   // Scan Context says how the two scans are turned, the pose graph where they should be.
   std::vector<Pose> guesses;
   if (candidate.detector == LoopCandidate::Detector::scan_context) {
@@ -91,8 +103,6 @@ LoopVerification LoopCloser::verify(const LoopCandidate& candidate,
       placed_round(candidate.match, settings.neighbours, settings.neighbours, key_frames, poses),
       guesses, range_noise_, settings);
 
-  const double travelled =
-      key_frames[candidate.query].travelled - key_frames[candidate.match].travelled;
   if (result.verdict == Verdict::accepted && settings.consistency_sigmas > 0.0 &&
       inconsistency(result.T_match_query, expected, travelled, settings) >
           settings.consistency_sigmas)
