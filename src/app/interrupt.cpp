@@ -3,12 +3,10 @@
 
 #include <signal.h>
 
-#include <csignal>
-
 namespace lego_loam_sc {
 namespace {
 
-volatile std::sig_atomic_t asked_to_end = 0;
+volatile sig_atomic_t asked_to_end = 0;
 
 void ask_to_end(int number) {
   asked_to_end = 1;

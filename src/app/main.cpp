@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <spdlog/sinks/stdout_color_sinks.h>
+#include <malloc.h>
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
@@ -15,12 +16,21 @@ namespace {
 constexpr int kBadInput = 1;
 constexpr int kBadUsage = 2;
 
+// Buffers of a few megabytes come and go with every scan: keep their memory instead of giving it
+// back to the system and clearing it anew each time.
+void keep_freed_memory() {
+  mallopt(M_MMAP_THRESHOLD, 1 << 30);
+  mallopt(M_TRIM_THRESHOLD, 1 << 30);
+  mallopt(M_TOP_PAD, 16 << 20);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   using namespace lego_loam_sc;
   // Standard output is for results: a scan stream, JSON, settings.
   spdlog::set_default_logger(spdlog::stderr_color_mt("lego-loam-sc"));
+  keep_freed_memory();
   spdlog::set_pattern("lego-loam-sc: %v");
 
   CLI::App app{"LiDAR-only SLAM: LeGO-LOAM with Scan Context loops."};

@@ -12,6 +12,7 @@
 #include "eval/error_report.hpp"
 #include "io/atomic_file.hpp"
 #include "io/cloud_writer.hpp"
+#include "io/error.hpp"
 #include "io/g2o.hpp"
 #include "io/sensor_yaml.hpp"
 #include "io/settings_yaml.hpp"
@@ -160,6 +161,8 @@ std::string ResultWriter::finish(const Slam& slam, const DatasetFacts& dataset,
 
   const double length = path_length(trajectory);
   const Resources resources = used_resources();
+  const double milliseconds_per_scan =
+      scan_count_ > 0 ? 1e3 * resources.cpu_seconds / static_cast<double>(scan_count_) : 0.0;
   nlohmann::ordered_json summary = {
       {"input", facts.input},
       {"method", facts.method},
@@ -178,26 +181,31 @@ std::string ResultWriter::finish(const Slam& slam, const DatasetFacts& dataset,
        {{"threads", facts.threads},
         {"wall_seconds", facts.wall_seconds},
         {"cpu_seconds", resources.cpu_seconds},
-        {"cpu_ms_per_scan", scan_count_ > 0 ? 1e3 * resources.cpu_seconds / static_cast<double>(scan_count_) : 0.0},
+        {"cpu_ms_per_scan", milliseconds_per_scan},
         {"peak_memory_mb", resources.peak_megabytes}}}};
   char text[512];
   std::snprintf(text, sizeof text,
                 "%zu scans, %.1f m, %zu key frames, %zu loops, %zu map points\n"
                 "%.1f s wall, %.1f s CPU (%.1f ms per scan), %.0f MB\n",
                 scan_count_, length, slam.key_frames().size(), accepted_loops_, map.size(),
-                facts.wall_seconds, resources.cpu_seconds,
-                scan_count_ > 0 ? 1e3 * resources.cpu_seconds / static_cast<double>(scan_count_)
-                                : 0.0,
+                facts.wall_seconds, resources.cpu_seconds, milliseconds_per_scan,
                 resources.peak_megabytes);
   std::string report = text;
   for (const auto& [status, count] : statuses_)
     if (status != to_string(Status::ok)) report += std::to_string(count) + " scans " + status + "\n";
-  if (facts.truth) {
-    summary["errors"] = errors_against(*facts.truth, slam.odometry(), trajectory);
-    const auto& errors = summary["errors"]["trajectory"];
-    report += "against truth: " + errors.dump() + "\n";
+  std::optional<InputError> misfit;  // of the truth; the run's results are worth no less
+  try {
+    if (facts.truth) {
+      summary["errors"] = errors_against(*facts.truth, slam.odometry(), trajectory);
+      report += "against truth: " + summary["errors"]["trajectory"].dump() + "\n";
+    }
+  } catch (const InputError& error) {
+    misfit.emplace(facts.truth->file + ": " + error.what());
   }
-  write_file(folder_ / "summary.json", summary.dump(2) + "\n");
+  // A file name need not be UTF-8.
+  write_file(folder_ / "summary.json",
+             summary.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  if (misfit) throw *misfit;
   return report;
 }
 

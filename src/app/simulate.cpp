@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/simulate.hpp"
-
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -14,6 +13,8 @@
 #include <string>
 #include <utility>
 
+#include "app/commands.hpp"
+#include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "io/scan_stream.hpp"
 #include "io/sensor_yaml.hpp"
@@ -79,7 +80,8 @@ void simulate(const Options& options) {
   const std::int64_t whole_drive = (world.drive.duration_ns() + period - 1) / period + 1;
   const std::int64_t count = options.count.value_or(whole_drive);
   Progress progress(static_cast<std::size_t>(count), isatty(STDERR_FILENO) == 0);
-  for (std::int64_t i = 0; i < count; ++i) {
+  catch_interrupts();  // a scan half written would spoil the rest
+  for (std::int64_t i = 0; i < count && !interrupted(); ++i) {
     const std::int64_t stamp_ns = i * period;
     sink(sweep(caster, sensor, lidar_pose, stamp_ns, settings), lidar_pose(stamp_ns));
     progress.step();

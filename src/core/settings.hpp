@@ -99,6 +99,7 @@ struct OdometrySettings {
   int iterations = 5;
   double max_distance = 5.0;
   int max_row_gap = 2;
+  int max_points = 400;
   int min_edges = 10;
   int min_planars = 20;
   double min_strength = 3.0;
@@ -116,6 +117,8 @@ struct OdometrySettings {
           "m; correspondences farther apart are not used");
     visit("max_row_gap", s.max_row_gap, 1, 16,
           "rows between the two points of a line or the rows of a plane");
+    visit("max_points", s.max_points, 10, 100000,
+          "of F_e and of F_p each that are matched; of more, evenly spread ones are taken");
     visit("min_edges", s.min_edges, 1, 100000, "fewest edge correspondences to solve with");
     visit("min_planars", s.min_planars, 1, 100000, "fewest planar correspondences to solve with");
     visit("min_strength", s.min_strength, 0.0, 1000.0,

@@ -66,14 +66,23 @@ void block_unreliable(const RangeImage& image, const FeatureSettings& settings, 
   }
 }
 
-// c_th for a point at this range: the setting, or what `noise_factor` sigmas of range noise make.
-// With |S| neighbours the sum of equation (1) has the variance sigma^2 (|S|^2 + |S|).
-float threshold(float range, const SensorModel& sensor, const FeatureSettings& settings) {
-  const double s = 2.0 * settings.neighbours;
-  const double noise =
-      settings.noise_factor * sensor.range_noise * std::sqrt(s * s + s) / (s * range);
-  return static_cast<float>(std::max(settings.roughness_threshold, noise));
-}
+// c_th: the setting, or what `noise_factor` sigmas of range noise make of a smooth surface. With |S|
+// neighbours the sum of equation (1) has the variance sigma^2 (|S|^2 + |S|).
+class Threshold {
+ public:
+  Threshold(const SensorModel& sensor, const FeatureSettings& settings)
+      : fixed_(static_cast<float>(settings.roughness_threshold)) {
+    const double s = 2.0 * settings.neighbours;
+    noise_metres_ = static_cast<float>(settings.noise_factor * sensor.range_noise *
+                                       std::sqrt(s * s + s) / s);
+  }
+
+  float operator()(float range) const { return std::max(fixed_, noise_metres_ / range); }
+
+ private:
+  float fixed_;
+  float noise_metres_;  // roughness times range
+};
 
 // Neighbours of a pick are the same edge or the same spot of a plane.
 void suppress(int i, const FeatureSettings& settings, const Row& row,
@@ -114,7 +123,9 @@ void pick_planars(Ranked& candidates, const FeatureSettings& settings, Row& row,
   const int wanted = std::max(settings.planars_flat, settings.planars_large);
   const std::size_t enough = std::min<std::size_t>(
       candidates.size(), static_cast<std::size_t>(wanted) * (2 * settings.suppressed_neighbours + 1));
-  std::partial_sort(candidates.begin(), candidates.begin() + enough, candidates.end());
+  if (enough == 0) return;
+  std::nth_element(candidates.begin(), candidates.begin() + enough - 1, candidates.end());
+  std::sort(candidates.begin(), candidates.begin() + enough);
   int flat = 0;
   int picked = 0;
   for (std::size_t k = 0; k < enough && picked < wanted; ++k) {
@@ -152,6 +163,7 @@ void spread_planars(const RangeImage& image, const std::vector<std::uint8_t>& sm
 
 void select(const RangeImage& image, const SensorModel& sensor, const FeatureSettings& settings,
             Row& row) {
+  const Threshold threshold(sensor, settings);
   std::vector<std::uint8_t> smooth(row.size(), 0);
   std::vector<std::uint8_t> used(row.blocked);
   int begin = 0;
@@ -162,7 +174,7 @@ void select(const RangeImage& image, const SensorModel& sensor, const FeatureSet
     for (; i < row.size() && row.column[i] < last_column; ++i) {
       const float c = row.roughness[i];
       if (std::isnan(c) || row.blocked[i]) continue;
-      if (c > threshold(row.range[i], sensor, settings)) {
+      if (c > threshold(row.range[i])) {
         if (row.label[i] != Label::ground) edges.emplace_back(c, i);
       } else {
         smooth[i] = 1;

@@ -22,6 +22,7 @@ constexpr double kNearShare = 0.15;
 constexpr double kFitShare = 0.8;
 constexpr double kFarDeg = 2.0;
 constexpr double kStrayShare = 0.05;
+constexpr double kMisfitShare = 0.2;
 
 struct Elevations {
   std::vector<double> deg;  // of the points with a return
@@ -140,7 +141,7 @@ std::optional<std::string> sensor_mismatch(const Scan& scan, const SensorModel& 
   const Elevations elevations = measure_elevations(scan);
   if (elevations.deg.empty()) return std::nullopt;
   const auto& beams = sensor.elevation_deg;
-  if (count_rings(scan) <= beams.size() && share_outside(elevations, beams) <= 0.5)
+  if (count_rings(scan) <= beams.size() && share_outside(elevations, beams) <= kMisfitShare)
     return std::nullopt;
   return "the scan does not fit the sensor " + sensor.name + ", which has " +
          std::to_string(beams.size()) + " beams between " + to_fixed(beams.front(), 1) + " and " +

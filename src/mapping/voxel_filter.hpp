@@ -15,6 +15,7 @@ std::vector<Point> voxel_filter(const std::vector<Point>& points, double size,
   if (size <= 0.0) return points;
   struct Nothing {};
   VoxelTable<Nothing> seen;
+  seen.reserve(points.size() / 2);
   std::vector<Point> kept;
   for (const Point& point : points) {
     const auto key = key_of(position(point).template cast<double>() / size);

@@ -39,6 +39,15 @@ class VoxelTable {
   const std::vector<VoxelKey>& keys() const { return keys_; }
   const std::vector<Value>& values() const { return values_; }
 
+  /// Makes room for this many values.
+  void reserve(std::size_t count) {
+    std::size_t slots = kFewestSlots;
+    while (slots < 2 * (count + 1)) slots *= 2;
+    if (slots > slots_.size()) rebuild(slots);
+    keys_.reserve(count);
+    values_.reserve(count);
+  }
+
   Value* find(VoxelKey key) {
     if (slots_.empty()) return nullptr;
     for (std::size_t s = first_slot(key);; s = (s + 1) & mask()) {
@@ -86,6 +95,7 @@ class VoxelTable {
     std::uint32_t index = kEmpty;
   };
   static constexpr std::uint32_t kEmpty = 0xffffffff;
+  static constexpr std::size_t kFewestSlots = 1024;
 
   std::size_t mask() const { return slots_.size() - 1; }
 
@@ -97,7 +107,7 @@ class VoxelTable {
     return key & mask();
   }
 
-  void grow() { rebuild(slots_.empty() ? 1024 : 2 * slots_.size()); }
+  void grow() { rebuild(slots_.empty() ? kFewestSlots : 2 * slots_.size()); }
 
   void rebuild(std::size_t slots) {
     slots_.assign(slots, Slot{});

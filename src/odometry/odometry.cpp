@@ -16,6 +16,10 @@ constexpr double kKernelSigmas = 2.0;
 constexpr double kMinScale = 0.05;
 constexpr double kMaxScale = 1.0;
 
+// Correspondences are searched anew until a solve moves the pose by less: 0.5 mm or 0.5 mrad. The
+// result is a guess for the mapper, which is finer.
+constexpr double kStill = 5e-4;
+
 constexpr std::array<int, 3> kGroundUnknowns = {2, 3, 4};  // t_z, roll, pitch
 constexpr std::array<int, 3> kEdgeUnknowns = {0, 1, 5};    // t_x, t_y, yaw
 constexpr std::array<int, 6> kAllUnknowns = {0, 1, 2, 3, 4, 5};
@@ -48,7 +52,7 @@ bool refine(Associate&& associate, const std::array<int, N>& unknowns, int neede
     if (static_cast<int>(correspondences.size()) < needed) return false;
     const auto result = solve(correspondences, unknowns, iterations, pose);
     total_iterations += result.iterations;
-    if (result.step < kConvergedStep) break;
+    if (result.step < kStill) break;
   }
   return true;
 }
@@ -64,6 +68,15 @@ Pose keep_guess_where_degenerate(const Pose& solved, const Pose& guess, const Lo
   Vector6 delta;
   delta << translation, rotation;
   return perturb(guess, delta);
+}
+
+// At most `count` of the points, at equal steps.
+std::vector<FeaturePoint> evenly(const std::vector<FeaturePoint>& points, int count) {
+  const std::size_t wanted = static_cast<std::size_t>(count);
+  if (points.size() <= wanted) return points;
+  std::vector<FeaturePoint> taken(wanted);
+  for (std::size_t i = 0; i < wanted; ++i) taken[i] = points[i * points.size() / wanted];
+  return taken;
 }
 
 bool all_ground(const std::vector<FeaturePoint>& points) {
@@ -85,8 +98,8 @@ Odometry::Odometry(const OdometrySettings& settings, double range_noise)
 
 void Odometry::set_previous(const Features& deskewed) {
   edges_.emplace(deskewed.edges_large);
-  planars_.emplace(deskewed.planars_large);
   ground_.emplace(ground_of(deskewed.planars_large));
+  planars_ = deskewed.planars_large;
 }
 
 Motion Odometry::estimate(const Features& features, const Pose& guess, double seconds) const {
@@ -94,21 +107,25 @@ Motion Odometry::estimate(const Features& features, const Pose& guess, double se
   motion.T_previous_current = guess;
   if (!has_previous()) return motion;
 
+  const std::vector<FeaturePoint> edges = evenly(features.edges_sharp, settings_.max_points);
+  const std::vector<FeaturePoint> planars = evenly(features.planars_flat, settings_.max_points);
   // The points of a sweep are moved to its middle with the motion as estimated so far.
   const auto edges_at = [&](const Pose& pose) {
-    return associate_edges(deskew(features.edges_sharp, log_se3(pose) / seconds), *edges_, pose,
+    return associate_edges(deskew(edges, log_se3(pose) / seconds), *edges_, pose,
                            settings_, range_noise_);
   };
-  const bool on_ground = all_ground(features.planars_flat);
-  const FeatureIndex& previous_planars = on_ground ? *ground_ : *planars_;
+  const bool on_ground = all_ground(planars);
+  std::optional<FeatureIndex> everywhere;
+  if (!on_ground) everywhere.emplace(planars_);
+  const FeatureIndex& previous_planars = on_ground ? *ground_ : *everywhere;
   const auto planars_at = [&](const Pose& pose) {
-    return associate_planars(deskew(features.planars_flat, log_se3(pose) / seconds),
+    return associate_planars(deskew(planars, log_se3(pose) / seconds),
                              previous_planars, pose, settings_, range_noise_);
   };
   const auto all_at = [&](const Pose& pose) {
     std::vector<Correspondence> all = planars_at(pose);
-    const std::vector<Correspondence> edges = edges_at(pose);
-    all.insert(all.end(), edges.begin(), edges.end());
+    const std::vector<Correspondence> lines = edges_at(pose);
+    all.insert(all.end(), lines.begin(), lines.end());
     return all;
   };
 

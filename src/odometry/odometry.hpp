@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "core/pose.hpp"
 #include "core/settings.hpp"
@@ -45,7 +46,7 @@ class Odometry {
   double range_noise_;
   std::optional<FeatureIndex> edges_;
   std::optional<FeatureIndex> ground_;
-  std::optional<FeatureIndex> planars_;  // ground and all else
+  std::vector<FeaturePoint> planars_;  // ground and all else
 };
 
 }  // namespace lego_loam_sc

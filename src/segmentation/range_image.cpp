@@ -26,7 +26,7 @@ std::vector<std::uint8_t> usable_points(const Scan& scan, const SensorModel& sen
 // Rotates a point about the horizontal axis across its direction, which adds `tangent` (of a small
 // angle) to its elevation and keeps its range. Elevation bias of KITTI's scans: see docs/sensors.md.
 Eigen::Vector3f raise(const Eigen::Vector3f& p, float sine, float cosine) {
-  const float across = std::hypot(p.x(), p.y());
+  const float across = std::sqrt(p.x() * p.x() + p.y() * p.y());
   if (across <= 0.0f) return p;
   const float scale = (across * cosine - p.z() * sine) / across;
   return {p.x() * scale, p.y() * scale, p.z() * cosine + across * sine};

@@ -65,8 +65,8 @@ std::vector<double> mean_elevation(const Scan& scan, const std::vector<std::uint
   for (std::size_t i = 0; i < scan.size(); ++i) {
     if (!usable[i] || groups.of_point[i] < 0) continue;
     const Eigen::Vector3f& p = scan.points[i];
-    const double across = std::hypot(p.x(), p.y());
-    if (across <= 0.0) continue;
+    const float across = std::sqrt(p.x() * p.x() + p.y() * p.y());
+    if (across <= 0.0f) continue;
     sum[groups.of_point[i]] += p.z() / across;
     ++count[groups.of_point[i]];
   }
@@ -145,7 +145,7 @@ std::vector<std::int16_t> rows_of_elevation(const Scan& scan,
   for (std::size_t i = 0; i < scan.size(); ++i) {
     if (!usable[i]) continue;
     const Eigen::Vector3f& p = scan.points[i];
-    const double tangent = p.z() / std::hypot(p.x(), p.y());
+    const double tangent = p.z() / std::sqrt(p.x() * p.x() + p.y() * p.y());
     const auto row = std::upper_bound(upper.begin(), upper.end(), tangent) - upper.begin();
     if (row < count && tangent >= lower[row]) rows[i] = static_cast<std::int16_t>(row);
   }

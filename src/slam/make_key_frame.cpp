@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "mapping/voxel_filter.hpp"
 #include "odometry/deskew.hpp"
@@ -46,16 +47,23 @@ KeyFrame make_key_frame(const RangeImage& image, const Segmentation& segmentatio
 
   // What the features leave out, in voxels that they have not taken.
   VoxelTable<char> taken;
+  taken.reserve(image.size() / 4);
   const auto take = [&](const Eigen::Vector3f& p) {
     const auto key = key_of(p.cast<double>() / spacing);
     return key && taken.find_or_insert(*key).second;
   };
   for (const auto* cloud : {&key_frame.planars, &key_frame.edges})
     for (const PackedPoint& p : *cloud) take(p.position());
+  // Along a row most points share the voxel of the one before; a glance at the distance is cheaper
+  // than a look into the table.
   const std::vector<Eigen::Vector3f> points = deskewed_points(image, twist);
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (segmentation.label[i] != Label::outlier && take(points[i]))
-      key_frame.others.push_back(pack(points[i], image.intensity[i]));
+  const float near = static_cast<float>(0.25 * spacing * spacing);
+  Eigen::Vector3f last = Eigen::Vector3f::Constant(std::numeric_limits<float>::max());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (segmentation.label[i] == Label::outlier || (points[i] - last).squaredNorm() < near) continue;
+    last = points[i];
+    if (take(points[i])) key_frame.others.push_back(pack(points[i], image.intensity[i]));
+  }
   return key_frame;
 }
 

@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slam/slam.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+#include "made_scenes.hpp"
+
+namespace lego_loam_sc {
+namespace {
+
+constexpr double kPeriod = 0.1;
+constexpr std::int64_t kPeriodNs = 100'000'000;
+constexpr double kNoise = 0.01;
+
+// An oval through the hall, driven once and a bit more: `metres` along it to the pose.
+Pose on_the_oval(double metres) {
+  constexpr double kA = 9.0, kB = 6.0;
+  const double turn = metres / (0.5 * (kA + kB));
+  const Eigen::Vector2d ahead(-kA * std::sin(turn), kB * std::cos(turn));
+  return pose_of(kA * std::cos(turn), kB * std::sin(turn), kMadeHeight,
+                 degrees(std::atan2(ahead.y(), ahead.x())));
+}
+
+// Sweeps of a sensor that moves at `speed` m/s. The motion within a sweep is in them.
+std::vector<Scan> drive(int scans, double speed) {
+  const SensorModel sensor = made_sensor(900);
+  const Scene scene = hall();
+  std::vector<Scan> result;
+  for (int k = 0; k < scans; ++k)
+    result.push_back(take_sweep(
+        scene, sensor,
+        [&](double seconds) { return on_the_oval(speed * (k * kPeriod + seconds)); },
+        {.stamp_ns = k * kPeriodNs, .noise = kNoise, .seed = 3}));
+  return result;
+}
+
+Settings with_short_loops() {
+  Settings settings;
+  settings.loop.min_travel = 25.0;
+  return settings;
+}
+
+bool same_pose(const Pose& a, const Pose& b) {
+  return std::memcmp(a.matrix().data(), b.matrix().data(), sizeof(double) * 16) == 0;
+}
+
+void expect_same(const Trajectory& a, const Trajectory& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].stamp_ns, b[i].stamp_ns);
+    EXPECT_TRUE(same_pose(a[i].pose, b[i].pose)) << "pose " << i;
+  }
+}
+
+void expect_same(const std::vector<PoseEdge>& a, const std::vector<PoseEdge>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].from, b[i].from);
+    EXPECT_EQ(a[i].to, b[i].to);
+    EXPECT_TRUE(same_pose(a[i].T_from_to, b[i].T_from_to));
+    EXPECT_EQ(a[i].covariance, b[i].covariance);
+  }
+}
+
+void expect_same(const std::vector<PackedPoint>& a, const std::vector<PackedPoint>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  EXPECT_EQ(std::memcmp(a.data(), b.data(), sizeof(PackedPoint) * a.size()), 0);
+}
+
+void expect_same(const Slam& a, const Slam& b) {
+  expect_same(a.odometry(), b.odometry());
+  expect_same(a.trajectory(), b.trajectory());
+  expect_same(a.graph().odometry_edges(), b.graph().odometry_edges());
+  expect_same(a.graph().loop_edges(), b.graph().loop_edges());
+  ASSERT_EQ(a.key_frames().size(), b.key_frames().size());
+  for (std::size_t k = 0; k < a.key_frames().size(); ++k) {
+    EXPECT_TRUE(same_pose(a.graph().poses()[k], b.graph().poses()[k]));
+    EXPECT_EQ(a.key_frames()[k].reference_ns, b.key_frames()[k].reference_ns);
+    EXPECT_EQ(a.key_frames()[k].travelled, b.key_frames()[k].travelled);
+    expect_same(a.key_frames()[k].planars, b.key_frames()[k].planars);
+    expect_same(a.key_frames()[k].edges, b.key_frames()[k].edges);
+    expect_same(a.key_frames()[k].others, b.key_frames()[k].others);
+  }
+}
+
+Scan scan_of(std::vector<Eigen::Vector3f> points, std::int64_t stamp_ns) {
+  Scan scan;
+  scan.stamp_ns = stamp_ns;
+  scan.points = std::move(points);
+  return scan;
+}
+
+std::vector<Eigen::Vector3f> repeated(const Eigen::Vector3f& point, int count) {
+  return std::vector<Eigen::Vector3f>(count, point);
+}
+
+// A run over scans, with what must hold whatever they are.
+std::vector<Status> statuses(Slam& slam, const std::vector<Scan>& scans) {
+  std::vector<Status> result;
+  std::size_t in_order = slam.trajectory().size();
+  for (const Scan& scan : scans) {
+    const ScanReport report = slam.process(scan);
+    result.push_back(report.status);
+    EXPECT_TRUE(report.T_odom_lidar.matrix().allFinite());
+    EXPECT_EQ(report.stamp_ns, scan.stamp_ns);
+    if (report.status != Status::out_of_order) ++in_order;
+  }
+  const Trajectory final_poses = slam.trajectory();
+  EXPECT_EQ(final_poses.size(), in_order);
+  EXPECT_EQ(slam.odometry().size(), in_order);
+  for (const StampedPose& p : final_poses) {
+    EXPECT_TRUE(p.pose.matrix().allFinite());
+    EXPECT_NEAR(p.pose.linear().determinant(), 1.0, 1e-9);
+  }
+  for (std::size_t i = 1; i < final_poses.size(); ++i)
+    EXPECT_GT(final_poses[i].stamp_ns, final_poses[i - 1].stamp_ns);
+  return result;
+}
+
+TEST(Slam, ARoundThroughTheHallStaysWithinCentimetresOfTheTruthAndClosesItsLoop) {
+  constexpr double kSpeed = 5.0;
+  const std::vector<Scan> scans = drive(105, kSpeed);
+  Slam slam(made_sensor(900), with_short_loops());
+  int accepted = 0;
+  for (const Scan& scan : scans) {
+    const ScanReport report = slam.process(scan);
+    EXPECT_EQ(report.status, Status::ok);
+    for (const LoopReport& loop : report.loops)
+      accepted += loop.verification.verdict == Verdict::accepted;
+  }
+  EXPECT_GE(accepted, 1);
+  const Trajectory trajectory = slam.trajectory();
+  ASSERT_EQ(trajectory.size(), scans.size());
+  const Pose T_world_map = on_the_oval(0.0) * trajectory[0].pose.inverse();
+  for (std::size_t k = 0; k < trajectory.size(); ++k) {
+    const Pose truth = on_the_oval(kSpeed * kPeriod * static_cast<double>(k));
+    const Pose error = truth.inverse() * T_world_map * trajectory[k].pose;
+    EXPECT_LT(error.translation().norm(), 0.10) << "scan " << k;
+    EXPECT_LT(degrees(rotation_angle(error)), 0.7) << "scan " << k;
+  }
+}
+
+TEST(Slam, TwoRunsAndRunsWithMoreThreadsGiveTheSameBits) {
+  const std::vector<Scan> scans = drive(85, 6.5);
+  const auto run = [&](int threads) {
+    Slam slam(made_sensor(900), with_short_loops(), threads);
+    for (const Scan& scan : scans) slam.process(scan);
+    return slam;
+  };
+  const Slam first = run(1);
+  EXPECT_GE(first.graph().loop_edges().size(), 1u);
+  expect_same(first, run(1));
+  expect_same(first, run(2));
+  expect_same(first, run(4));
+}
+
+TEST(Slam, ScansWithoutUsablePointsArePredicted) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float infinity = std::numeric_limits<float>::infinity();
+  for (const Eigen::Vector3f& point :
+       {Eigen::Vector3f(nan, nan, nan), Eigen::Vector3f(0, 0, 0), Eigen::Vector3f(1e30f, 1e30f, 0),
+        Eigen::Vector3f(infinity, 0, 0), Eigen::Vector3f(5, nan, 1), Eigen::Vector3f(0, 0, -5),
+        Eigen::Vector3f(0.1f, 0, 0), Eigen::Vector3f(500, 0, 0)}) {
+    Slam slam(made_sensor(900), {});
+    std::vector<Scan> scans;
+    for (int k = 0; k < 3; ++k) scans.push_back(scan_of(repeated(point, 500), k * kPeriodNs));
+    for (const Status status : statuses(slam, scans)) EXPECT_EQ(status, Status::too_few_points);
+  }
+}
+
+TEST(Slam, EmptyScansOnePointAndOneRingDoNotEndARun) {
+  const SensorModel sensor = made_sensor(900);
+  std::vector<Eigen::Vector3f> ring;
+  for (int column = 0; column < sensor.columns; ++column)
+    ring.push_back(5.0f * beam(column_azimuth(sensor, column), radians(1.0)).cast<float>());
+  std::vector<Scan> scans;
+  for (int k = 0; k < 12; ++k)
+    scans.push_back(scan_of(k % 4 == 0   ? std::vector<Eigen::Vector3f>{}
+                            : k % 4 == 1 ? repeated({5, 1, 0.1f}, 1)
+                            : k % 4 == 2 ? ring
+                                         : repeated({6.0f, 0.5f, 0.1051f}, 1000),
+                            k * kPeriodNs));
+  Slam slam(sensor, {});
+  const std::vector<Status> status = statuses(slam, scans);
+  for (int k = 0; k < 12; ++k)
+    if (k % 4 < 2) EXPECT_EQ(status[k], Status::too_few_points);
+}
+
+TEST(Slam, ARunGoesOnAfterEmptyScans) {
+  constexpr double kSpeed = 3.0;
+  std::vector<Scan> scans = drive(30, kSpeed);
+  for (const int k : {10, 11, 20}) scans[k] = scan_of({}, scans[k].stamp_ns);
+  Slam slam(made_sensor(900), {});
+  const std::vector<Status> status = statuses(slam, scans);
+  for (int k = 0; k < 30; ++k)
+    EXPECT_EQ(status[k], k == 10 || k == 11 || k == 20 ? Status::too_few_points : Status::ok) << k;
+  const Pose moved = slam.trajectory().front().pose.inverse() * slam.trajectory().back().pose;
+  const Pose truth = on_the_oval(0.0).inverse() * on_the_oval(kSpeed * kPeriod * 29);
+  EXPECT_LT((truth.inverse() * moved).translation().norm(), 0.10);
+  // The prediction carries the motion on through the gap.
+  const Pose in_gap = slam.trajectory().front().pose.inverse() * slam.trajectory()[11].pose;
+  const Pose truth_in_gap = on_the_oval(0.0).inverse() * on_the_oval(kSpeed * kPeriod * 11);
+  EXPECT_LT((truth_in_gap.inverse() * in_gap).translation().norm(), 0.15);
+}
+
+TEST(Slam, ARunBeginsWhenTheFirstScansAreEmpty) {
+  std::vector<Scan> scans = drive(12, 3.0);
+  for (int k = 0; k < 3; ++k) scans[k] = scan_of({}, scans[k].stamp_ns);
+  Slam slam(made_sensor(900), {});
+  const std::vector<Status> status = statuses(slam, scans);
+  for (int k = 0; k < 12; ++k)
+    EXPECT_EQ(status[k], k < 3 ? Status::too_few_points : Status::ok) << k;
+  const Trajectory trajectory = slam.trajectory();
+  const Pose moved = trajectory[3].pose.inverse() * trajectory[11].pose;
+  const Pose truth = on_the_oval(0.3 * 3).inverse() * on_the_oval(0.3 * 11);
+  EXPECT_LT((truth.inverse() * moved).translation().norm(), 0.10);
+}
+
+TEST(Slam, AScanThatIsNotAfterTheOneBeforeIsIgnored) {
+  std::vector<Scan> scans = drive(12, 3.0);
+  Slam expected(made_sensor(900), {});
+  for (const Scan& scan : scans) expected.process(scan);
+
+  Slam slam(made_sensor(900), {});
+  scans.insert(scans.begin() + 8, scans[7]);
+  scans.insert(scans.begin() + 5, scans[2]);
+  const std::vector<Status> status = statuses(slam, scans);
+  for (int k = 0; k < 14; ++k)
+    EXPECT_EQ(status[k] == Status::out_of_order, k == 5 || k == 9) << k;
+  expect_same(slam, expected);
+}
+
+TEST(Slam, AScanFromAnotherPlaceIsLostAndChangesNothingElse) {
+  std::vector<Scan> scans = drive(20, 3.0);
+  scans[12] = take_scan(street(), made_sensor(900), pose_of(2, 0, kMadeHeight, 70.0),
+                        {.stamp_ns = scans[12].stamp_ns, .noise = kNoise});
+  Slam slam(made_sensor(900), {});
+  const std::vector<Status> status = statuses(slam, scans);
+  EXPECT_EQ(status[12], Status::lost);
+  EXPECT_EQ(status[19], Status::ok);
+  const Pose moved = slam.trajectory()[0].pose.inverse() * slam.trajectory()[19].pose;
+  const Pose truth = on_the_oval(0.0).inverse() * on_the_oval(0.3 * 19);
+  EXPECT_LT((truth.inverse() * moved).translation().norm(), 0.10);
+}
+
+TEST(Slam, ASensorAtRestStaysWhereItIs) {
+  std::vector<Scan> scans;
+  for (int k = 0; k < 30; ++k)
+    scans.push_back(take_scan(hall(), made_sensor(900), pose_of(3, 4, kMadeHeight, 30.0),
+                              {.stamp_ns = k * kPeriodNs, .noise = kNoise, .seed = 4}));
+  Slam slam(made_sensor(900), {});
+  for (const Status status : statuses(slam, scans)) EXPECT_EQ(status, Status::ok);
+  EXPECT_EQ(slam.key_frames().size(), 1u);
+  for (const StampedPose& p : slam.trajectory()) {
+    EXPECT_LT(p.pose.translation().norm(), 0.02);
+    EXPECT_LT(degrees(rotation_angle(p.pose)), 0.1);
+  }
+}
+
+TEST(Slam, TheHeightOfTheSensorIsEstimatedWhenItIsNotKnown) {
+  const std::vector<Scan> scans = drive(3, 3.0);
+  Slam slam(made_sensor(900), {});
+  EXPECT_EQ(slam.sensor_height(), 0.0);
+  for (const Scan& scan : scans) slam.process(scan);
+  EXPECT_NEAR(slam.sensor_height(), kMadeHeight, 0.05);
+}
+
+TEST(Slam, SettingsOutOfRangeAreRefused) {
+  Settings settings;
+  settings.mapping.voxel_size = -1.0;
+  EXPECT_THROW(Slam(made_sensor(), settings), std::invalid_argument);
+  SensorModel sensor = made_sensor();
+  sensor.elevation_deg.clear();
+  EXPECT_THROW(Slam(sensor, {}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace lego_loam_sc
