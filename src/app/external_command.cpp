@@ -13,10 +13,11 @@ bool is_known_verb(const CLI::App& app, const std::string& word) {
 }
 
 void run_external(char** argv) {
-  const std::string program = std::string("lego-loam-sc-") + argv[1];
+  char* const verb = argv[1];
+  const std::string program = std::string("lego-loam-sc-") + verb;
   argv[1] = const_cast<char*>(program.c_str());  // execvp takes it by its C signature
   execvp(program.c_str(), argv + 1);
-  argv[1] = argv[1] + std::string("lego-loam-sc-").size();
+  argv[1] = verb;
 }
 
 }  // namespace lego_loam_sc

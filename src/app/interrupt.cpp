@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/interrupt.hpp"
 
+#include <fcntl.h>
 #include <signal.h>
+#include <unistd.h>
 
 namespace lego_loam_sc {
 namespace {
 
 volatile sig_atomic_t asked_to_end = 0;
+int nothing_to_read = -1;  // a file that is at its end
 
 void ask_to_end(int number) {
   asked_to_end = 1;
+  dup2(nothing_to_read, STDIN_FILENO);  // for a read that begins between this and the next look
   signal(number, SIG_DFL);
 }
 
@@ -25,6 +29,7 @@ void handle(int number, void (*handler)(int)) {
 }  // namespace
 
 void catch_interrupts() {
+  nothing_to_read = open("/dev/null", O_RDONLY | O_CLOEXEC);
   handle(SIGINT, ask_to_end);
   handle(SIGTERM, ask_to_end);
 }

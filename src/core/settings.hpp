@@ -286,8 +286,6 @@ struct GraphSettings {
   double loop_sigma = 0.05;
   double loop_sigma_deg = 0.2;
   double loop_kernel = 3.0;
-  double relinearize_threshold = 0.01;
-  int updates_after_loop = 5;
 
   template <class Self, class Visit>
   static void fields(Self& s, Visit&& visit) {
@@ -299,11 +297,7 @@ struct GraphSettings {
     visit("loop_sigma", s.loop_sigma, 1e-6, 100.0, "m; smallest sigma of a loop edge");
     visit("loop_sigma_deg", s.loop_sigma_deg, 1e-6, 180.0, "deg; the same for rotation");
     visit("loop_kernel", s.loop_kernel, 0.0, 1e6,
-          "sigmas; Huber kernel on loop edges, 0 = no kernel");
-    visit("relinearize_threshold", s.relinearize_threshold, 1e-6, 10.0,
-          "iSAM2: change that makes a variable be linearised anew");
-    visit("updates_after_loop", s.updates_after_loop, 0, 100,
-          "further iSAM2 updates after a loop");
+          "sigmas; Huber kernel on loop edges, widened by what drift explains; 0 = no kernel");
   }
 };
 

@@ -5,13 +5,14 @@
 
 namespace lego_loam_sc {
 
-/// What became of a scan. A bad scan is an outcome, not the end of a run: in all cases but `ok`
-/// and `degenerate` the pose is the predicted one.
+/// What became of a scan. A bad scan is an outcome, not the end of a run: in the last three cases
+/// the pose is the predicted one, and the scan changes nothing else.
 enum class Status {
   ok,
   degenerate,      ///< matched, but at least one direction is held by the prediction alone
+  odometry_only,   ///< the match against the map did not hold, that with the previous scan did
   too_few_points,  ///< not enough points or features to match
-  lost,            ///< the match against the map did not hold
+  lost,            ///< matched neither the map nor the previous scan
   out_of_order,    ///< its stamp is not after the one before; the scan was ignored
 };
 
@@ -19,6 +20,7 @@ constexpr std::string_view to_string(Status status) {
   switch (status) {
     case Status::ok: return "ok";
     case Status::degenerate: return "degenerate";
+    case Status::odometry_only: return "odometry_only";
     case Status::too_few_points: return "too_few_points";
     case Status::lost: return "lost";
     case Status::out_of_order: return "out_of_order";

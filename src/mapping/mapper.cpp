@@ -83,6 +83,9 @@ Mapper::Mapper(const MappingSettings& settings, double range_noise)
 MapMatch Mapper::refine(const Features& features, const ScanGuess& guess) {
   MapMatch match;
   match.T_map_lidar = guess.T_map_lidar;
+  const double prior_rotation = radians(settings_.prior_rotation_deg);
+  match.covariance.diagonal() << Eigen::Vector3d::Constant(std::pow(settings_.prior_translation, 2)),
+      Eigen::Vector3d::Constant(prior_rotation * prior_rotation);
   std::vector<FeaturePoint> planars, edges;
   double spacing = settings_.match_spacing;
   for (int k = 0; k == 0 || (k <= kHalvings && match.points < settings_.match_points);
@@ -94,7 +97,7 @@ MapMatch Mapper::refine(const Features& features, const ScanGuess& guess) {
 
   Pose pose = guess.T_map_lidar;
   const Pose T_previous_map = guess.T_previous_current * guess.T_map_lidar.inverse();
-  Prior prior(pose, settings_.prior_translation, radians(settings_.prior_rotation_deg));
+  Prior prior(pose, settings_.prior_translation, prior_rotation);
   std::vector<Correspondence> correspondences;
   double scale = kMaxScale;
   Matrix6 H = Matrix6::Identity();

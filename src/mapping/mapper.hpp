@@ -17,7 +17,7 @@ struct MapMatch {
   int matches = 0;                      ///< of them found a surface
   int iterations = 0;
   double rmse = 0.0;                      ///< m, of the matched points with their robust weights
-  Matrix6 covariance = Matrix6::Zero();   ///< of the perturbation of core/pose.hpp; zero if not matched
+  Matrix6 covariance = Matrix6::Zero();   ///< of the perturbation of core/pose.hpp; the prior's if not matched
   Localizability localizability;
 };
 

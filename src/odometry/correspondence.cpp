@@ -50,7 +50,7 @@ NormalEquations<6> normal_equations(std::span<const Correspondence> corresponden
       Vector6 row;
       row << c.direction, rotated.cross(c.direction);
       const double weight = c.weight * robust_weight(d, scale);
-      sum.H.selfadjointView<Eigen::Lower>().rankUpdate(row, weight);
+      sum.H.noalias() += (weight * row) * row.transpose();
       sum.g += weight * d * row;
       sum.cost += 0.5 * c.weight * scale * scale * std::log1p(d * d / (scale * scale));
     } else {
@@ -62,12 +62,11 @@ NormalEquations<6> normal_equations(std::span<const Correspondence> corresponden
       rows.leftCols<3>() = across;
       rows.rightCols<3>() = -across * skew(rotated);
       const double weight = c.weight * robust_weight(std::sqrt(squared), scale);
-      sum.H.triangularView<Eigen::Lower>() += weight * rows.transpose() * rows;
+      sum.H.noalias() += (weight * rows.transpose()).lazyProduct(rows);
       sum.g += weight * rows.transpose() * e;
       sum.cost += 0.5 * c.weight * scale * scale * std::log1p(squared / (scale * scale));
     }
   }
-  sum.H.triangularView<Eigen::StrictlyUpper>() = sum.H.transpose();
   return sum;
 }
 

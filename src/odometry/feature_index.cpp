@@ -114,7 +114,7 @@ int FeatureIndex::nearest_in_row(const Eigen::Vector3f& query, int row, float ma
   };
   bool up = true;
   bool down = true;
-  for (int k = 0; 2 * k < count + 1 && (up || down); ++k) {
+  for (int k = 0; k < count && (up || down); ++k) {
     if (up) up = visit(start + k);
     if (down) down = visit(start - 1 - k);
   }

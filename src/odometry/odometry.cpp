@@ -20,6 +20,9 @@ constexpr double kMaxScale = 1.0;
 // result is a guess for the mapper, which is finer.
 constexpr double kStill = 5e-4;
 
+// Robust sigma of the distances, m, above which two scans do not show the same place.
+constexpr double kMaxSpread = 0.3;
+
 constexpr std::array<int, 3> kGroundUnknowns = {2, 3, 4};  // t_z, roll, pitch
 constexpr std::array<int, 3> kEdgeUnknowns = {0, 1, 5};    // t_x, t_y, yaw
 constexpr std::array<int, 6> kAllUnknowns = {0, 1, 2, 3, 4, 5};
@@ -91,6 +94,16 @@ std::vector<FeaturePoint> ground_of(const std::vector<FeaturePoint>& points) {
   return ground;
 }
 
+// Something is always near enough to be matched, even in a scan of another place; but then the
+// distances that remain are large.
+bool fits(const std::vector<Correspondence>& matched, Correspondence::Kind kind,
+          const Pose& pose) {
+  std::vector<Correspondence> of_kind;
+  std::copy_if(matched.begin(), matched.end(), std::back_inserter(of_kind),
+               [&](const Correspondence& c) { return c.kind == kind; });
+  return of_kind.empty() || robust_scale(of_kind, pose, 1.0, 0.0, kMaxScale) < kMaxSpread;
+}
+
 }  // namespace
 
 Odometry::Odometry(const OdometrySettings& settings, double range_noise)
@@ -148,6 +161,9 @@ Motion Odometry::estimate(const Features& features, const Pose& guess, double se
   const std::vector<Correspondence> matched = all_at(pose);
   for (const Correspondence& c : matched)
     ++(c.kind == Correspondence::Kind::line ? motion.edges : motion.planars);
+  motion.solved = fits(matched, Correspondence::Kind::line, pose) &&
+                  fits(matched, Correspondence::Kind::plane, pose);
+  if (!motion.solved) return motion;
   const double scale = robust_scale(matched, pose, kKernelSigmas, kMinScale, kMaxScale);
   motion.localizability = localizability(matched, pose, scale, settings_.min_strength);
   motion.T_previous_current =

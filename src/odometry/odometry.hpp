@@ -15,7 +15,7 @@ namespace lego_loam_sc {
 /// Motion from the previous scan to the current one, between their reference times.
 struct Motion {
   Pose T_previous_current = Pose::Identity();
-  bool solved = false;  ///< false: too few correspondences, the pose is the guess
+  bool solved = false;  ///< false: the scans do not fit each other, the pose is the guess
   int edges = 0;        ///< correspondences of the last association
   int planars = 0;
   int iterations = 0;   ///< Levenberg-Marquardt steps of all solves

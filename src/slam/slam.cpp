@@ -36,6 +36,13 @@ Features deskewed(const Features& features, const Vector6& twist) {
           deskew(features.edges_large, twist), deskew(features.planars_large, twist)};
 }
 
+// A scan at its reference time.
+struct Placed {
+  std::int64_t reference_ns = 0;
+  Pose T_map_lidar = Pose::Identity();
+  Pose T_odom_lidar = Pose::Identity();
+};
+
 double seconds_between(std::int64_t from_ns, std::int64_t to_ns) {
   return 1e-9 * static_cast<double>(to_ns - from_ns);
 }
@@ -76,13 +83,10 @@ struct Slam::State {
   std::vector<int> scan_of_key_frame;
   Trajectory live;
 
-  // The last scan that was not out of order, at its reference time.
   int scans = 0;
-  std::int64_t stamp_ns = 0;
-  std::int64_t reference_ns = 0;
-  Pose T_map_lidar = Pose::Identity();
-  Pose T_odom_lidar = Pose::Identity();
-  Vector6 twist = Vector6::Zero();  // m/s, rad/s
+  std::int64_t stamp_ns = 0;        // of the last scan that was not out of order
+  Placed previous;                  // the last scan that was matched
+  Vector6 twist = Vector6::Zero();  // of that scan, m/s and rad/s
   double travelled = 0.0;           // m
 };
 
@@ -91,7 +95,7 @@ ScanReport Slam::State::process(const Scan& scan) {
   ScanReport report;
   report.index = scans++;
   report.stamp_ns = scan.stamp_ns;
-  report.T_odom_lidar = T_odom_lidar;
+  report.T_odom_lidar = previous.T_odom_lidar;
   const bool first = live.empty();
   if (!first && scan.stamp_ns <= stamp_ns) {
     report.status = Status::out_of_order;
@@ -121,7 +125,8 @@ ScanReport Slam::State::process(const Scan& scan) {
 
   // Two scans with sweeps of different length may have reference times out of order.
   const double seconds =
-      first ? sensor.period : std::max(seconds_between(reference_ns, image.reference_ns), 1e-3);
+      first ? sensor.period
+            : std::max(seconds_between(previous.reference_ns, image.reference_ns), 1e-3);
 
   timer.start(Stage::odometry);
   const Motion motion = predict_and_match(features, seconds, report);
@@ -130,21 +135,25 @@ ScanReport Slam::State::process(const Scan& scan) {
   const MapMatch match = refine(features, motion, seconds, report);
 
   // The same motion carries the live pose on, which no loop ever moves.
-  const Pose T_previous_current = T_map_lidar.inverse() * match.T_map_lidar;
-  T_odom_lidar = normalized(T_odom_lidar * T_previous_current);
-  if (!first) twist = log_se3(motion.T_previous_current) / seconds;
-  if (match.matched && settings.mapping.every == 1) twist = log_se3(T_previous_current) / seconds;
-  T_map_lidar = match.T_map_lidar;
-  travelled += T_previous_current.translation().norm();
+  const Pose T_previous_current = previous.T_map_lidar.inverse() * match.T_map_lidar;
+  const Placed current{image.reference_ns, match.T_map_lidar,
+                       normalized(previous.T_odom_lidar * T_previous_current)};
   stamp_ns = scan.stamp_ns;
-  reference_ns = image.reference_ns;
-
-  const Features features_deskewed = deskewed(features, twist);
-  odometry.set_previous(features_deskewed);
-  const bool good = report.status == Status::ok || report.status == Status::degenerate;
-  if (good && report.mapped) mapper.insert(features_deskewed, T_map_lidar);
+  const bool good = report.status <= Status::odometry_only;
+  Features features_deskewed;
+  if (good) {
+    if (!first)
+      twist = log_se3(settings.mapping.every == 1 ? T_previous_current : motion.T_previous_current) /
+              seconds;
+    travelled += T_previous_current.translation().norm();
+    previous = current;
+    features_deskewed = deskewed(features, twist);
+    odometry.set_previous(features_deskewed);
+    if (report.mapped) mapper.insert(features_deskewed, current.T_map_lidar);
+  }
 
   timer.start(Stage::loops);
+  Pose T_map_lidar = current.T_map_lidar;
   if (first || (good && report.mapped && is_key_frame(T_map_lidar))) {
     report.key_frame = static_cast<int>(key_frames.size());
     scan_of_key_frame.push_back(report.index);
@@ -154,10 +163,11 @@ ScanReport Slam::State::process(const Scan& scan) {
                   make_scan_context(deskewed_points(image, twist), height,
                                     settings.loop.scan_context));
     close_loops(report);
+    T_map_lidar = graph.poses().back();
   }
 
-  const Pose T_reference_stamp = exp_se3(twist * seconds_between(reference_ns, stamp_ns));
-  report.T_odom_lidar = T_odom_lidar * T_reference_stamp;
+  const Pose T_reference_stamp = exp_se3(twist * seconds_between(image.reference_ns, stamp_ns));
+  report.T_odom_lidar = current.T_odom_lidar * T_reference_stamp;
   live.push_back({stamp_ns, report.T_odom_lidar});
   fusion.add(stamp_ns, static_cast<int>(key_frames.size()) - 1,
              graph.poses().back().inverse() * T_map_lidar * T_reference_stamp);
@@ -177,28 +187,42 @@ Motion Slam::State::predict_and_match(const Features& features, double seconds,
   return motion;
 }
 
-// LiDAR mapping, 2.3 (4): the first scan makes the map, every n-th of the others is matched with it.
+// LiDAR mapping, 2.3 (4): the first good scan makes the map, every n-th of the others is matched with it,
+// from the odometry's motion or, when that does not hold, from the prediction.
 MapMatch Slam::State::refine(const Features& features, const Motion& motion, double seconds,
                              ScanReport& report) {
+  const Pose predicted = exp_se3(twist * seconds);
+  const auto refine_from = [&](const Pose& T_previous_current) {
+    return mapper.refine(
+        features, {previous.T_map_lidar * T_previous_current, T_previous_current, seconds});
+  };
   MapMatch match;
-  match.T_map_lidar = live.empty() ? Pose::Identity() : T_map_lidar * motion.T_previous_current;
-  if (report.status != Status::ok || report.index % settings.mapping.every != 0) return match;
-  report.mapped = true;
+  match.T_map_lidar = previous.T_map_lidar * motion.T_previous_current;
+  if (report.status != Status::ok) return match;
+  report.mapped = mapper.empty() || report.index % settings.mapping.every == 0;
   if (mapper.empty()) return match;
 
-  match = mapper.refine(features, {match.T_map_lidar, motion.T_previous_current, seconds});
-  report.map_points = match.points;
-  report.map_matches = match.matches;
-  report.map_iterations = match.iterations;
-  report.map_rmse = match.rmse;
-  report.degenerate_translations = match.localizability.degenerate_translations;
-  report.degenerate_rotations = match.localizability.degenerate_rotations;
-  report.least_translation_strength = match.localizability.translation[0];
-  report.least_rotation_strength = match.localizability.rotation[0];
-  if (!match.matched) {
+  if (report.mapped) {
+    match = refine_from(motion.T_previous_current);
+    if (!match.matched && motion.solved) {
+      const MapMatch again = refine_from(predicted);
+      if (again.matched) match = again;
+    }
+    report.map_points = match.points;
+    report.map_matches = match.matches;
+    report.map_iterations = match.iterations;
+    report.map_rmse = match.rmse;
+    report.degenerate_translations = match.localizability.degenerate_translations;
+    report.degenerate_rotations = match.localizability.degenerate_rotations;
+    report.least_translation_strength = match.localizability.translation[0];
+    report.least_rotation_strength = match.localizability.rotation[0];
+  }
+  if (match.matched) {
+    if (match.localizability.degenerate()) report.status = Status::degenerate;
+  } else if (!motion.solved) {
     report.status = Status::lost;
-  } else if (match.localizability.degenerate()) {
-    report.status = Status::degenerate;
+  } else if (report.mapped) {
+    report.status = Status::odometry_only;
   }
   return match;
 }
@@ -233,13 +257,13 @@ void Slam::State::close_loops(ScanReport& report) {
     report.corrected |= loop.verification.verdict == Verdict::accepted;
   }
   if (!report.corrected) return;
-  T_map_lidar = graph.poses().back();
+  previous.T_map_lidar = graph.poses().back();
   rebuild_local_map();
 }
 
 void Slam::State::rebuild_local_map() {
   mapper.clear();
-  const Eigen::Vector3d here = T_map_lidar.translation();
+  const Eigen::Vector3d here = previous.T_map_lidar.translation();
   for (std::size_t k = 0; k < key_frames.size(); ++k) {
     const Pose& T_map_key = graph.poses()[k];
     if ((T_map_key.translation() - here).norm() > settings.mapping.radius) continue;

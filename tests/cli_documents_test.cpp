@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <tuple>
+#include <type_traits>
+#include <vector>
+
+#include "cli_program.hpp"
+#include "core/settings.hpp"
+#include "io/settings_yaml.hpp"
+#include "io/text.hpp"
+
+namespace lego_loam_sc {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kSource = LEGO_LOAM_SC_SOURCE;
+
+std::string stripped(const std::string& text) {
+  const auto begin = text.find_first_not_of(" `");
+  const auto end = text.find_last_not_of(" `");
+  return begin == text.npos ? "" : text.substr(begin, end - begin + 1);
+}
+
+// The rows of all tables under the heading `## heading` of a document, cell by cell.
+std::vector<std::vector<std::string>> table_rows(const fs::path& document,
+                                                 const std::string& heading) {
+  std::vector<std::vector<std::string>> rows;
+  std::string section;
+  int rows_of_table = 0;
+  for (const std::string& line : lines_of(document)) {
+    if (line.starts_with("## ")) section = stripped(line.substr(3));
+    rows_of_table = line.starts_with("|") ? rows_of_table + 1 : 0;
+    // The first two lines of a table are its head.
+    if (rows_of_table < 3 || (!heading.empty() && section != heading)) continue;
+    std::vector<std::string> cells;
+    for (const std::string& cell : split(line.substr(1), '|')) cells.push_back(stripped(cell));
+    rows.push_back(cells);
+  }
+  return rows;
+}
+
+std::vector<std::string> first_cells(const std::string& document, const std::string& heading) {
+  std::vector<std::string> names;
+  for (const auto& row : table_rows(kSource / document, heading)) names.push_back(row.front());
+  return names;
+}
+
+// name, default and range of every setting, as docs/settings.md must show them.
+std::map<std::string, std::string> expected_settings() {
+  std::map<std::string, std::string> expected;
+  const Settings settings = load_settings("lego-loam-sc", {}, {});
+  Settings::groups(settings, [&](const std::string& group, const auto& section) {
+    std::remove_cvref_t<decltype(section)>::fields(
+        section, [&](const std::string& name, auto value, auto... facts) {
+          std::string& row = expected[group + "." + name];
+          if constexpr (sizeof...(facts) == 3) {
+            const auto [minimum, maximum, comment] = std::tuple(facts...);
+            row = to_text(value) + ", " + to_text(minimum) + " to " + to_text(maximum);
+          } else {
+            row = value ? "true, true or false" : "false, true or false";
+          }
+        });
+  });
+  return expected;
+}
+
+TEST(Documents, ListEverySettingWithItsDefaultAndRange) {
+  std::map<std::string, std::string> documented;
+  for (const auto& row : table_rows(kSource / "docs/settings.md", "")) {
+    if (row.front().find('.') == std::string::npos) continue;  // a table of methods
+    ASSERT_EQ(row.size(), 4U) << row.front();
+    EXPECT_FALSE(row[3].empty()) << row.front();
+    documented[row[0]] = row[1] + ", " + row[2];
+  }
+  EXPECT_EQ(documented, expected_settings());
+}
+
+TEST(Documents, ListTheColumnsOfTheTablesThatARunWrites) {
+  const Shell shell;
+  shell.must("$P simulate parking --count 2 --sensor rs16 -o scans && $P run scans -o result");
+  for (const char* name : {"scans.csv", "loops.csv"})
+    EXPECT_EQ(first_cells("docs/output.md", name), read_csv(shell.folder() / "result" / name)[0]);
+}
+
+TEST(Documents, ListTheFilesThatARunLeaves) {
+  const Shell shell;
+  shell.must("$P simulate parking --count 2 --sensor rs16 -o scans && $P run scans -o result");
+  std::set<std::string> files;
+  for (const auto& entry : fs::directory_iterator(shell.folder() / "result"))
+    files.insert(entry.path().filename().string());
+  const auto documented = first_cells("docs/output.md", "Files");
+  EXPECT_EQ(std::set<std::string>(documented.begin(), documented.end()), files);
+}
+
+// Names of all leaves; `status` and the errors have tables of their own.
+void add_leaves(const nlohmann::ordered_json& object, const std::string& prefix,
+                std::vector<std::string>& names) {
+  for (const auto& [key, value] : object.items()) {
+    const std::string name = prefix + key;
+    const bool leaf = !value.is_object() || name == "status" || name == "errors.trajectory" ||
+                      name == "errors.odometry";
+    if (leaf)
+      names.push_back(name);
+    else
+      add_leaves(value, name + ".", names);
+  }
+}
+
+TEST(Documents, ListTheFieldsOfTheSummaryAndOfTheErrors) {
+  const Shell shell;
+  shell.must("$P simulate parking --count 30 --sensor rs16 -o scans");
+  shell.must("$P run scans -o result --truth scans/truth.tum");
+  const auto summary =
+      nlohmann::ordered_json::parse(read_text(shell.folder() / "result/summary.json"));
+  std::vector<std::string> names;
+  add_leaves(summary, "", names);
+  EXPECT_EQ(first_cells("docs/output.md", "summary.json"), names);
+
+  names.clear();
+  for (const auto& [key, value] : summary["errors"]["trajectory"].items()) names.push_back(key);
+  EXPECT_EQ(first_cells("docs/output.md", "Errors against truth"), names);
+}
+
+// Lines of shell blocks of a document, joined where they end in a backslash.
+std::vector<std::string> shell_lines(const fs::path& document) {
+  std::vector<std::string> commands;
+  bool inside = false;
+  std::string joined;
+  for (const std::string& line : lines_of(document)) {
+    if (line.starts_with("```")) {
+      inside = !inside && line == "```sh";
+    } else if (inside && line.ends_with('\\')) {
+      joined += line.substr(0, line.size() - 1);
+    } else if (inside) {
+      commands.push_back(joined + line.substr(0, line.find(" #")));
+      joined.clear();
+    }
+  }
+  return commands;
+}
+
+TEST(Documents, ShowCommandLinesWithVerbsAndOptionsThatExist) {
+  const Shell shell;
+  std::vector<fs::path> documents = {kSource / "README.md"};
+  for (const auto& entry : fs::directory_iterator(kSource / "docs"))
+    if (entry.path().extension() == ".md") documents.push_back(entry.path());
+  int seen = 0;
+  for (const fs::path& document : documents) {
+    for (const std::string& line : shell_lines(document)) {
+      for (const std::string& command : split(line, '|')) {
+        std::istringstream words(command);
+        std::string program, verb;
+        words >> program >> verb;
+        if (program != "lego-loam-sc" || verb.starts_with("-")) continue;
+        ++seen;
+        const Outcome help = shell("$P " + verb + " --help");
+        EXPECT_EQ(help.exit_code, 0) << document << ": " << command;
+        const std::string known = " " + std::regex_replace(help.out, std::regex("[,\n]"), " ");
+        for (std::string word; words >> word;)
+          EXPECT_TRUE(!word.starts_with("-") || word == "-" ||
+                      known.find(" " + word + " ") != known.npos)
+              << document << ": " << command;
+      }
+    }
+  }
+  EXPECT_GT(seen, 10);
+}
+
+}  // namespace
+}  // namespace lego_loam_sc
