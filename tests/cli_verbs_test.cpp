@@ -29,9 +29,8 @@ void turn_scan(const fs::path& file, double yaw) {
   std::string bytes = read_text(file);
   const Eigen::Matrix3f R = rotation_from_rpy(0.0, 0.0, yaw).cast<float>();
   for (std::size_t at = 0; at < bytes.size(); at += 4 * sizeof(float)) {
-    const Eigen::Vector3f p = R * Eigen::Vector3f(load<float>(&bytes[at]), load<float>(&bytes[at + 4]),
-                                                  load<float>(&bytes[at + 8]));
-    std::memcpy(&bytes[at], p.data(), sizeof(p));
+    const Eigen::Vector3f turned = R * load<Eigen::Vector3f>(&bytes[at]);
+    std::memcpy(&bytes[at], turned.data(), sizeof(turned));
   }
   std::ofstream(file, std::ios::binary) << bytes;
 }

@@ -112,12 +112,21 @@ Resources used_resources() {
           static_cast<double>(usage.ru_maxrss) / 1024.0};
 }
 
-nlohmann::ordered_json errors_against(const NamedTruth& truth, const Trajectory& odometry,
-                                      const Trajectory& trajectory) {
+// KITTI's truth is the camera's.
+PoseFile of_lidar(PoseFile truth, const std::optional<Pose>& T_camera_lidar) {
+  if (truth.has_stamps || !T_camera_lidar) return truth;
+  for (StampedPose& stamped : truth.poses)
+    stamped.pose = T_camera_lidar->inverse() * stamped.pose * *T_camera_lidar;
+  return truth;
+}
+
+nlohmann::ordered_json errors_against(const NamedTruth& truth, const DatasetFacts& dataset,
+                                      const Trajectory& odometry, const Trajectory& trajectory) {
+  const PoseFile poses = of_lidar(truth.poses, dataset.T_camera_lidar);
   nlohmann::ordered_json errors;
   errors["truth"] = truth.file;
-  errors["trajectory"] = to_json(evaluate(associate(truth.poses, {trajectory, true})));
-  errors["odometry"] = to_json(evaluate(associate(truth.poses, {odometry, true})));
+  errors["trajectory"] = to_json(evaluate(associate(poses, {trajectory, true})));
+  errors["odometry"] = to_json(evaluate(associate(poses, {odometry, true})));
   return errors;
 }
 
@@ -192,11 +201,12 @@ std::string ResultWriter::finish(const Slam& slam, const DatasetFacts& dataset,
                 resources.peak_megabytes);
   std::string report = text;
   for (const auto& [status, count] : statuses_)
-    if (status != to_string(Status::ok)) report += std::to_string(count) + " scans " + status + "\n";
+    if (status != to_string(Status::ok))
+      report += std::to_string(count) + " scans " + status + "\n";
   std::optional<InputError> misfit;  // of the truth; the run's results are worth no less
   try {
     if (facts.truth) {
-      summary["errors"] = errors_against(*facts.truth, slam.odometry(), trajectory);
+      summary["errors"] = errors_against(*facts.truth, dataset, slam.odometry(), trajectory);
       report += "against truth: " + summary["errors"]["trajectory"].dump() + "\n";
     }
   } catch (const InputError& error) {

@@ -31,7 +31,8 @@ std::string run_name(const std::string& input) {
 fs::path make_run_folder(const std::optional<fs::path>& asked, const std::string& input) {
   if (asked) {
     std::error_code error;
-    if (fs::exists(*asked, error) && !(fs::is_directory(*asked, error) && fs::is_empty(*asked, error)))
+    const bool empty = fs::is_directory(*asked, error) && fs::is_empty(*asked, error);
+    if (fs::exists(*asked, error) && !empty)
       throw InputError(asked->string() +
                        ": is there already and not an empty folder; a run never overwrites, choose "
                        "another -o");

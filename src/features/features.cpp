@@ -25,6 +25,7 @@ struct Row {
   std::vector<Label> label;
   std::vector<float> roughness;
   std::vector<std::uint8_t> blocked;  // makes no feature
+  std::vector<std::uint8_t> oblique;  // makes no edge
   std::vector<Pick> pick;
 
   int size() const { return static_cast<int>(index.size()); }
@@ -40,13 +41,40 @@ Row kept_points(const RangeImage& image, const Segmentation& segmentation, int r
     kept.label.push_back(segmentation.label[i]);
   }
   kept.blocked.assign(kept.index.size(), 0);
+  kept.oblique.assign(kept.index.size(), 0);
   kept.pick.assign(kept.index.size(), Pick::none);
   return kept;
 }
 
+// c_th: the setting, or what `noise_factor` sigmas of range noise make of a smooth surface. With |S|
+// neighbours the sum of equation (1) has the variance sigma^2 (|S|^2 + |S|).
+class Threshold {
+ public:
+  Threshold(const SensorModel& sensor, const FeatureSettings& settings)
+      : wall_(static_cast<float>((settings.neighbours + 1) * (2 * settings.neighbours + 1)) / 6.0f),
+        fixed_(static_cast<float>(settings.roughness_threshold)) {
+    const double s = 2.0 * settings.neighbours;
+    noise_metres_ = static_cast<float>(settings.noise_factor * sensor.range_noise *
+                                       std::sqrt(s * s + s) / s);
+  }
+
+  float operator()(float range) const { return std::max(fixed_, noise_metres_ / range); }
+
+  // A flat wall whose range changes by the share q from one beam to the next has a roughness of
+  // q^2 (n + 1)(2 n + 1) / 6 with n neighbours on each side: above this q, less a margin, it would
+  // pass for an edge, which travels along with the sensor.
+  float oblique(float range) const { return 0.8f * std::sqrt((*this)(range) / wall_); }
+
+ private:
+  float wall_;  // roughness of a flat wall over q^2
+  float fixed_;
+  float noise_metres_;  // roughness times range
+};
+
 // The far side of a range jump may be partly hidden, so its border is no real edge; the near side
 // is one. The row is taken as a line here: its two ends lie behind the vehicle.
-void block_unreliable(const RangeImage& image, const FeatureSettings& settings, Row& row) {
+void block_unreliable(const RangeImage& image, const FeatureSettings& settings,
+                      const Threshold& threshold, Row& row) {
   const float step = 2.0f * std::numbers::pi_v<float> / static_cast<float>(image.columns);
   for (int i = 0; i + 1 < row.size(); ++i) {
     const float here = row.range[i];
@@ -60,29 +88,13 @@ void block_unreliable(const RangeImage& image, const FeatureSettings& settings, 
         for (int k = i + 1; k <= std::min(i + 1 + settings.neighbours, row.size() - 1); ++k)
           row.blocked[k] = 1;
     }
-    if (i > 0 && std::abs(row.range[i - 1] - here) > kParallelBeam * here &&
-        std::abs(next - here) > kParallelBeam * here)
-      row.blocked[i] = 1;
+    if (i == 0) continue;
+    const float share =
+        std::min(std::abs(row.range[i - 1] - here), std::abs(next - here)) / here;
+    if (share > kParallelBeam) row.blocked[i] = 1;
+    if (share > threshold.oblique(here)) row.oblique[i] = 1;
   }
 }
-
-// c_th: the setting, or what `noise_factor` sigmas of range noise make of a smooth surface. With |S|
-// neighbours the sum of equation (1) has the variance sigma^2 (|S|^2 + |S|).
-class Threshold {
- public:
-  Threshold(const SensorModel& sensor, const FeatureSettings& settings)
-      : fixed_(static_cast<float>(settings.roughness_threshold)) {
-    const double s = 2.0 * settings.neighbours;
-    noise_metres_ = static_cast<float>(settings.noise_factor * sensor.range_noise *
-                                       std::sqrt(s * s + s) / s);
-  }
-
-  float operator()(float range) const { return std::max(fixed_, noise_metres_ / range); }
-
- private:
-  float fixed_;
-  float noise_metres_;  // roughness times range
-};
 
 // Neighbours of a pick are the same edge or the same spot of a plane.
 void suppress(int i, const FeatureSettings& settings, const Row& row,
@@ -161,9 +173,8 @@ void spread_planars(const RangeImage& image, const std::vector<std::uint8_t>& sm
   }
 }
 
-void select(const RangeImage& image, const SensorModel& sensor, const FeatureSettings& settings,
+void select(const RangeImage& image, const FeatureSettings& settings, const Threshold& threshold,
             Row& row) {
-  const Threshold threshold(sensor, settings);
   std::vector<std::uint8_t> smooth(row.size(), 0);
   std::vector<std::uint8_t> used(row.blocked);
   int begin = 0;
@@ -175,7 +186,7 @@ void select(const RangeImage& image, const SensorModel& sensor, const FeatureSet
       const float c = row.roughness[i];
       if (std::isnan(c) || row.blocked[i]) continue;
       if (c > threshold(row.range[i])) {
-        if (row.label[i] != Label::ground) edges.emplace_back(c, i);
+        if (row.label[i] != Label::ground && !row.oblique[i]) edges.emplace_back(c, i);
       } else {
         smooth[i] = 1;
         if (settings.planars_large > 0 || !settings.flat_from_ground_only ||
@@ -213,12 +224,13 @@ void append(const RangeImage& image, int row_number, const Row& row, Features& f
 Features extract(const RangeImage& image, const Segmentation& segmentation,
                  const SensorModel& sensor, const FeatureSettings& settings) {
   Features features;
+  const Threshold threshold(sensor, settings);
   for (int row_number = 0; row_number < image.rows; ++row_number) {
     Row row = kept_points(image, segmentation, row_number);
     row.roughness = roughness(row.range, row.column, image.columns, settings.neighbours,
                               settings.max_column_gap);
-    block_unreliable(image, settings, row);
-    select(image, sensor, settings, row);
+    block_unreliable(image, settings, threshold, row);
+    select(image, settings, threshold, row);
     append(image, row_number, row, features);
   }
   return features;

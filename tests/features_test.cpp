@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "features/features.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <random>
+#include <set>
+#include <tuple>
+#include <vector>
+
+#include "features/roughness.hpp"
+#include "made_scenes.hpp"
+
+namespace lego_loam_sc {
+namespace {
+
+using Eigen::Vector3d;
+
+// Equation (1), one neighbour after the other.
+double naive_roughness(const std::vector<float>& range, const std::vector<std::uint16_t>& column,
+                       int columns, int neighbours, int max_gap, int i) {
+  const int count = static_cast<int>(range.size());
+  double sum = 0.0;
+  for (const int direction : {-1, 1}) {
+    int here = i;
+    for (int k = 0; k < neighbours; ++k) {
+      const int next = (here + direction + count) % count;
+      int gap = direction * (column[next] - column[here]);
+      if (gap < 0) gap += columns;
+      if (gap > max_gap) return std::nan("");
+      sum += static_cast<double>(range[next]) - range[i];
+      here = next;
+    }
+  }
+  return std::abs(sum) / (2.0 * neighbours * range[i]);
+}
+
+TEST(Roughness, IsEquationOne) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> range(2.0f, 50.0f);
+  for (int trial = 0; trial < 50; ++trial) {
+    std::vector<float> ranges;
+    std::vector<std::uint16_t> columns;
+    for (std::uint16_t column = 0; column < 360; ++column) {
+      // Gaps of all lengths, and several points in one column.
+      if (random() % 40 == 0) column = static_cast<std::uint16_t>(column + random() % 20);
+      for (unsigned n = random() % 10; column < 360 && n < 11; n += 10) {
+        ranges.push_back(range(random));
+        columns.push_back(column);
+      }
+    }
+    for (const int neighbours : {1, 5}) {
+      const std::vector<float> c = roughness(ranges, columns, 360, neighbours, 10);
+      int none = 0;
+      for (int i = 0; i < static_cast<int>(c.size()); ++i) {
+        const double expected = naive_roughness(ranges, columns, 360, neighbours, 10, i);
+        EXPECT_EQ(std::isnan(c[i]), std::isnan(expected)) << i;
+        none += std::isnan(expected);
+        if (!std::isnan(expected)) {
+          EXPECT_NEAR(c[i], expected, 1e-5 * (1.0 + expected)) << i;
+        }
+      }
+      EXPECT_LT(none, static_cast<int>(c.size()));
+    }
+  }
+}
+
+TEST(Roughness, ARowOfFewPointsHasNone) {
+  for (const int count : {0, 1, 10}) {
+    std::vector<std::uint16_t> column(count);
+    for (int i = 0; i < count; ++i) column[i] = static_cast<std::uint16_t>(i);
+    for (const float c : roughness(std::vector<float>(count, 5.0f), column, 1800, 5, 10))
+      EXPECT_TRUE(std::isnan(c));
+  }
+}
+
+TEST(Roughness, OfARightAngledCornerIsThatOfItsClosedForm) {
+  // Walls that fall back by 45 degrees on both sides: r(a) = d / (cos a - sin |a|).
+  constexpr double kStep = 0.2 * M_PI / 180.0;
+  double expected = 0.0;
+  for (int k = 1; k <= 5; ++k)
+    expected += 2.0 * (1.0 / (std::cos(k * kStep) - std::sin(k * kStep)) - 1.0) / 10.0;
+  EXPECT_NEAR(expected, 1.07e-2, 1e-4);
+  for (const double distance : {2.0, 30.0}) {
+    std::vector<float> range;
+    std::vector<std::uint16_t> column;
+    for (int k = -20; k <= 20; ++k) {
+      const double a = std::abs(k) * kStep;
+      range.push_back(static_cast<float>(distance / (std::cos(a) - std::sin(a))));
+      column.push_back(static_cast<std::uint16_t>(900 + k));
+    }
+    EXPECT_NEAR(roughness(range, column, 1800, 5, 10)[20], expected, 1e-5);
+  }
+}
+
+// ---- Selection.
+
+using Key = std::tuple<int, int, float, float, float>;
+
+Key key_of_point(const FeaturePoint& p) {
+  return {p.row, p.column, p.position.x(), p.position.y(), p.position.z()};
+}
+
+std::set<Key> keys(const std::vector<FeaturePoint>& points) {
+  std::set<Key> result;
+  for (const FeaturePoint& p : points) result.insert(key_of_point(p));
+  return result;
+}
+
+bool contains(const std::vector<FeaturePoint>& large, const std::vector<FeaturePoint>& small) {
+  const std::set<Key> all = keys(large);
+  return std::all_of(small.begin(), small.end(),
+                     [&](const FeaturePoint& p) { return all.contains(key_of_point(p)); });
+}
+
+Features features_of(const Scene& scene, const Pose& T_world_lidar, double noise = 0.0,
+                     const Settings& settings = {}) {
+  const SensorModel sensor = made_sensor();
+  const Scan scan = take_scan(scene, sensor, T_world_lidar, {.noise = noise, .seed = 3});
+  return through_stages(scan, sensor, T_world_lidar.translation().z(), settings).features;
+}
+
+Settings with_counts() {
+  Settings settings;
+  settings.features.edges_sharp = 2;
+  settings.features.edges_large = 4;
+  settings.features.planars_flat = 3;
+  settings.features.planars_large = 7;
+  return settings;
+}
+
+TEST(Features, TheSmallSetsArePartOfTheLargeOnesAndNothingIsDoubled) {
+  for (const Settings& settings : {Settings{}, with_counts()}) {
+    const Features f = features_of(street(), pose_of(0, 0, kMadeHeight), 0.01, settings);
+    EXPECT_GT(f.edges_sharp.size(), 50u);
+    EXPECT_GT(f.planars_flat.size(), 50u);
+    EXPECT_GT(f.edges_large.size(), f.edges_sharp.size());
+    EXPECT_GT(f.planars_large.size(), f.planars_flat.size());
+    EXPECT_TRUE(contains(f.edges_large, f.edges_sharp));
+    EXPECT_TRUE(contains(f.planars_large, f.planars_flat));
+    for (const auto* set : {&f.edges_sharp, &f.edges_large, &f.planars_flat, &f.planars_large})
+      EXPECT_EQ(keys(*set).size(), set->size());
+    const std::set<Key> edges = keys(f.edges_large);
+    for (const Key& key : keys(f.planars_large)) EXPECT_FALSE(edges.contains(key));
+  }
+}
+
+TEST(Features, AtMostTheAskedForCountComesFromEachRowAndSubImage) {
+  const Settings settings = with_counts();
+  const Features f = features_of(street(), pose_of(0, 0, kMadeHeight), 0.01, settings);
+  const auto most = [](const std::vector<FeaturePoint>& points) {
+    std::map<std::pair<int, int>, int> count;
+    int result = 0;
+    for (const FeaturePoint& p : points)
+      result = std::max(result, ++count[{p.row, p.column * 6 / 1800}]);
+    return result;
+  };
+  EXPECT_EQ(most(f.edges_sharp), 2);
+  EXPECT_EQ(most(f.edges_large), 4);
+  EXPECT_EQ(most(f.planars_flat), 3);
+  EXPECT_EQ(most(f.planars_large), 7);
+}
+
+TEST(Features, AscendInRowAndColumn) {
+  const Features f = features_of(street(), pose_of(0, 0, kMadeHeight), 0.01);
+  for (const auto* set : {&f.edges_sharp, &f.edges_large, &f.planars_flat, &f.planars_large}) {
+    EXPECT_TRUE(std::is_sorted(set->begin(), set->end(), [](const auto& a, const auto& b) {
+      return std::pair(a.row, a.column) < std::pair(b.row, b.column);
+    }));
+  }
+}
+
+TEST(Features, EdgesAreNeverOnTheGroundAndFlatPointsAlwaysWhenThereIsEnough) {
+  const Features f = features_of(street(), pose_of(0, 0, kMadeHeight), 0.01);
+  for (const FeaturePoint& p : f.edges_large) EXPECT_NE(p.label, Label::ground);
+  for (const FeaturePoint& p : f.planars_flat) EXPECT_EQ(p.label, Label::ground);
+}
+
+TEST(Features, WithoutEnoughGroundFlatPointsComeFromEverywhere) {
+  Scene room;  // the floor is out of sight
+  room.box({-6, -5, -50}, {7, 4, 50});
+  const Features f = features_of(room, pose_of(0, 0, 1.0), 0.01);
+  EXPECT_GT(f.planars_flat.size(), 100u);
+}
+
+TEST(Features, ACornerOfARoomIsAnEdge) {
+  Scene room;
+  room.box({-6, -5, -50}, {7, 4, 50});
+  const Features f = features_of(room, pose_of(0, 0, 1.0));
+  for (const auto& [x, y] : {std::pair(-6.0, -5.0), {-6.0, 4.0}, {7.0, -5.0}, {7.0, 4.0}}) {
+    const auto near = std::count_if(
+        f.edges_sharp.begin(), f.edges_sharp.end(), [&](const FeaturePoint& p) {
+          return (p.position.head<2>().cast<double>() - Eigen::Vector2d(x, y)).norm() < 0.1;
+        });
+    EXPECT_EQ(near, 16);  // one in each row
+  }
+}
+
+TEST(Features, AWallMakesNoEdgesOfTheNoiseThatIsAskedFor) {
+  Scene wall;
+  wall.box({-5, -5, -50}, {5, 5, 50});
+  Settings settings;
+  settings.features.noise_factor = 5.0;  // exceeded once in a million
+  const Features f = features_of(wall, pose_of(0, 0, 1.0), 0.01, settings);
+  for (const FeaturePoint& p : f.edges_large) {
+    const Vector3d q = p.position.cast<double>();
+    EXPECT_LT((q.head<2>().cwiseAbs() - Eigen::Vector2d(5, 5)).norm(), 0.2) << q.transpose();
+  }
+  EXPECT_GE(f.edges_large.size(), 4u * 16u);
+}
+
+TEST(Features, ALongFlatWallMakesNoEdges) {
+  // Seen ever more flatly along the wall, the range itself is curved.
+  for (const double distance : {2.0, 5.0}) {
+    Scene wall;
+    wall.plane({0, distance, 0}, Vector3d::UnitY());
+    const Features f = features_of(wall, pose_of(0, 0, 1.0));
+    EXPECT_TRUE(f.edges_large.empty()) << f.edges_large.size() << " edges";
+    EXPECT_GT(f.planars_large.size(), 100u);
+  }
+}
+
+TEST(Features, ABorderThatIsHiddenByANearerObjectIsNoEdge) {
+  Scene scene;
+  scene.plane({12, 0, 0}, Vector3d::UnitX());
+  scene.box({5, -1, -20}, {6, 1, 20});
+  const Features f = features_of(scene, pose_of(0, 0, 1.0));
+  int near = 0;
+  for (const FeaturePoint& p : f.edges_large) {
+    const Vector3d q = p.position.cast<double>();
+    const double azimuth = std::abs(std::atan2(q.y(), q.x()));
+    // The shadow of the box ends at the azimuth of its front corners.
+    const bool at_the_shadow = std::abs(azimuth - std::atan2(1.0, 5.0)) < radians(1.2);
+    EXPECT_FALSE(q.x() > 11.0 && at_the_shadow) << q.transpose();
+    near += q.x() < 7.0 && at_the_shadow;
+  }
+  EXPECT_EQ(near, 2 * 16);  // the box's own corners
+}
+
+TEST(Features, NothingHasNoFeatures) {
+  const Features f = through_stages({}, made_sensor(), 0.0).features;
+  EXPECT_TRUE(f.edges_large.empty() && f.planars_large.empty());
+}
+
+}  // namespace
+}  // namespace lego_loam_sc
