@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -29,7 +30,8 @@ void turn_scan(const fs::path& file, double yaw) {
   std::string bytes = read_text(file);
   const Eigen::Matrix3f R = rotation_from_rpy(0.0, 0.0, yaw).cast<float>();
   for (std::size_t at = 0; at < bytes.size(); at += 4 * sizeof(float)) {
-    const Eigen::Vector3f turned = R * load<Eigen::Vector3f>(&bytes[at]);
+    const auto [x, y, z] = load<std::array<float, 3>>(&bytes[at]);
+    const Eigen::Vector3f turned = R * Eigen::Vector3f(x, y, z);
     std::memcpy(&bytes[at], turned.data(), sizeof(turned));
   }
   std::ofstream(file, std::ios::binary) << bytes;

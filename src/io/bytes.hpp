@@ -13,7 +13,7 @@ static_assert(std::endian::native == std::endian::little, "files are written as 
 template <class T>
 T load(const char* bytes) {
   T value;
-  std::memcpy(&value, bytes, sizeof(T));
+  std::memcpy(static_cast<void*>(&value), bytes, sizeof(T));
   return value;
 }
 
