@@ -123,8 +123,7 @@ TEST(Correspondence, TheHessianIsTheWeightedSumOfSquaredNumericJacobians) {
       Eigen::Matrix<double, 3, 6> J;
       for (int i = 0; i < 6; ++i) {
         const Vector6 step = kStep * Vector6::Unit(i);
-        J.col(i) =
-            (residual(perturb(pose, step)) - residual(perturb(pose, -step))) / (2.0 * kStep);
+        J.col(i) = (residual(perturb(pose, step)) - residual(perturb(pose, -step))) / (2.0 * kStep);
       }
       const double ratio = residual(pose).norm() / kScale;
       const Matrix6 expected = c.weight / (1.0 + ratio * ratio) * J.transpose() * J;

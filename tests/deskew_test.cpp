@@ -94,7 +94,8 @@ TEST(Deskew, ASweepOfAMovingSensorBecomesStraightAgain) {
   double distorted = 0.0;
   for (std::size_t i = 0; i < straight.size(); ++i) {
     EXPECT_LT(off_the_wall(T_world_reference * straight[i].cast<double>()), 1e-4);
-    distorted = std::max(distorted, off_the_wall(T_world_reference * image.points[i].cast<double>()));
+    distorted =
+        std::max(distorted, off_the_wall(T_world_reference * image.points[i].cast<double>()));
   }
   EXPECT_GT(distorted, 0.3);
 }

@@ -23,8 +23,9 @@ Matrix6 of_the_right_perturbation(const Matrix6& covariance, const Pose& T) {
   Matrix6 J;
   for (int i = 0; i < 6; ++i) {
     const Vector6 step = kStep * Vector6::Unit(i);
-    J.col(i) = (log_se3(T.inverse() * perturb(T, step)) - log_se3(T.inverse() * perturb(T, -step))) /
-               (2.0 * kStep);
+    J.col(i) =
+        (log_se3(T.inverse() * perturb(T, step)) - log_se3(T.inverse() * perturb(T, -step))) /
+        (2.0 * kStep);
   }
   return J * covariance * J.transpose();
 }
@@ -50,12 +51,13 @@ TEST(EdgeCovariance, IsTheMatchersInTheAxesOfTheEdgesEndAndAFloor) {
     const Pose T = exp_se3(twist);
     const Matrix6 matcher = some_covariance(seed);
     const Matrix6 turned = of_the_right_perturbation(matcher, T);
-    EXPECT_LT((loop_covariance(matcher, T.linear(), settings) - turned - floor_of(0.07, 0.3)).norm(),
-              1e-9);
-    EXPECT_LT((odometry_covariance(matcher, T.linear(), {}, settings) - turned -
-               floor_of(0.02, 0.1))
-                  .norm(),
-              1e-9);
+    EXPECT_LT(
+        (loop_covariance(matcher, T.linear(), settings) - turned - floor_of(0.07, 0.3)).norm(),
+        1e-9);
+    EXPECT_LT(
+        (odometry_covariance(matcher, T.linear(), {}, settings) - turned - floor_of(0.02, 0.1))
+            .norm(),
+        1e-9);
   }
 }
 

@@ -191,8 +191,8 @@ TEST(Features, ACornerOfARoomIsAnEdge) {
   room.box({-6, -5, -50}, {7, 4, 50});
   const Features f = features_of(room, pose_of(0, 0, 1.0));
   for (const auto& [x, y] : {std::pair(-6.0, -5.0), {-6.0, 4.0}, {7.0, -5.0}, {7.0, 4.0}}) {
-    const auto near = std::count_if(
-        f.edges_sharp.begin(), f.edges_sharp.end(), [&](const FeaturePoint& p) {
+    const auto near =
+        std::count_if(f.edges_sharp.begin(), f.edges_sharp.end(), [&](const FeaturePoint& p) {
           return (p.position.head<2>().cast<double>() - Eigen::Vector2d(x, y)).norm() < 0.1;
         });
     EXPECT_EQ(near, 16);  // one in each row

@@ -71,8 +71,7 @@ TEST(KeyFrame, HoldsOnePointOfEachVoxelAndNoneTwice) {
     return keys;
   };
   for (const auto* cloud : {&key_frame.planars, &key_frame.edges, &key_frame.others})
-    EXPECT_GT(static_cast<double>(voxels(*cloud).size()),
-              0.9 * static_cast<double>(cloud->size()));
+    EXPECT_GT(static_cast<double>(voxels(*cloud).size()), 0.9 * static_cast<double>(cloud->size()));
   const std::set<VoxelKey> planars = voxels(key_frame.planars);
   std::size_t doubled = 0;
   for (const VoxelKey key : voxels(key_frame.others)) doubled += planars.contains(key);

@@ -36,7 +36,8 @@ Visit visit(const Scene& scene, const Pose& T_world_lidar, std::uint64_t seed) {
 std::vector<Visit> visits_of_hall() {
   std::vector<Visit> visits;
   for (int k = -3; k <= 3; ++k)
-    visits.push_back(visit(hall(), pose_of(-8.0 + 0.9 * k, 5.0 + 0.1 * k * k, kMadeHeight, 20.0 * k),
+    visits.push_back(visit(hall(),
+                           pose_of(-8.0 + 0.9 * k, 5.0 + 0.1 * k * k, kMadeHeight, 20.0 * k),
                            static_cast<std::uint64_t>(k + 10)));
   return visits;
 }
@@ -51,7 +52,9 @@ std::vector<PlacedKeyFrame> placed(const std::vector<Visit>& visits, const Visit
   return result;
 }
 
-PlacedKeyFrame alone(const Visit& v) { return {&v.key_frame, Pose::Identity()}; }
+PlacedKeyFrame alone(const Visit& v) {
+  return {&v.key_frame, Pose::Identity()};
+}
 
 Pose far_and_turned(std::mt19937& random) {
   std::uniform_real_distribution<double> metres(-1e5, 1e5);
@@ -96,8 +99,7 @@ TEST(LoopVerifier, TheCovarianceIsPositiveDefiniteAndSmall) {
   const std::vector<Visit> visits = visits_of_hall();
   const std::vector<PlacedKeyFrame> all = placed(visits, visits[3], Pose::Identity());
   const std::vector<Pose> guess{Pose::Identity()};
-  const LoopVerification result =
-      verify_loop(std::span(all).subspan(3, 1), all, guess, kNoise, {});
+  const LoopVerification result = verify_loop(std::span(all).subspan(3, 1), all, guess, kNoise, {});
   const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(result.covariance);
   EXPECT_GT(eigen.eigenvalues()[0], 0.0);
   EXPECT_LT(eigen.eigenvalues()[5], 0.01 * 0.01);

@@ -45,8 +45,7 @@ class Scene {
     const auto meet = [&](double t) {
       if (t > 0.0 && t < nearest) nearest = t;
     };
-    for (const Plane& p : planes_)
-      meet(p.normal.dot(p.point - origin) / p.normal.dot(direction));
+    for (const Plane& p : planes_) meet(p.normal.dot(p.point - origin) / p.normal.dot(direction));
     for (const Box& b : boxes_) meet(to_box(b, origin, direction));
     for (const Pole& p : poles_) meet(to_pole(p, origin, direction));
     return nearest;

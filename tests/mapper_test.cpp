@@ -40,8 +40,9 @@ TEST(Mapper, FindsThePoseFromAGuessThatIsOffByThirtyCentimetresAndThreeDegrees) 
   const Pose truth = pose_of(-1.2, 4.3, kMadeHeight, 12.0);
   const Features features = features_at(hall(), truth, 50, kMadeHeight);
   for (const double sign : {-1.0, 1.0}) {
-    for (const Pose& guess : {off_by(truth, 0.3 * sign, 0, 0, 3.0), off_by(truth, 0, 0.3 * sign, 0.05, -3.0),
-                              off_by(truth, 0.2, 0.2 * sign, -0.05, 2.0)}) {
+    for (const Pose& guess :
+         {off_by(truth, 0.3 * sign, 0, 0, 3.0), off_by(truth, 0, 0.3 * sign, 0.05, -3.0),
+          off_by(truth, 0.2, 0.2 * sign, -0.05, 2.0)}) {
       const MapMatch match = mapper.refine(features, {guess, Pose::Identity(), 0.1});
       ASSERT_TRUE(match.matched);
       const Pose error = truth.inverse() * match.T_map_lidar;
@@ -72,9 +73,9 @@ TEST(Mapper, DeskewsASweepWithTheMotionSinceThePreviousScan) {
   twist << 5.0, 0.0, 0.0, 0.0, 0.0, 0.6;
   const Pose start = pose_of(-2.0, 4.0, kMadeHeight, 5.0);
   const SensorModel sensor = made_sensor(900);
-  const Scan sweep = take_sweep(
-      hall(), sensor, [&](double seconds) { return start * exp_se3(twist * seconds); },
-      {.noise = kNoise, .seed = 9});
+  const Scan sweep =
+      take_sweep(hall(), sensor, [&](double seconds) { return start * exp_se3(twist * seconds); },
+                 {.noise = kNoise, .seed = 9});
   const Features features = through_stages(sweep, sensor, kMadeHeight).features;
   const Pose truth = start * exp_se3(0.05 * twist);
   const Pose motion = exp_se3(0.1 * twist);
@@ -100,7 +101,8 @@ TEST(Mapper, DoesNotMatchNothing) {
   mapper.clear();
   EXPECT_TRUE(mapper.empty());
   const Features features = features_at(hall(), pose_of(0, 4, kMadeHeight), 53, kMadeHeight);
-  EXPECT_FALSE(mapper.refine(features, {pose_of(0, 4, kMadeHeight), Pose::Identity(), 0.1}).matched);
+  EXPECT_FALSE(
+      mapper.refine(features, {pose_of(0, 4, kMadeHeight), Pose::Identity(), 0.1}).matched);
 }
 
 TEST(Mapper, ATunnelWithoutEndKeepsTheGuessAlongItsAxis) {

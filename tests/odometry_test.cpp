@@ -36,8 +36,8 @@ std::vector<FeaturePoint> random_rows(std::mt19937& random) {
     const float bunch = turn(random);
     for (int i = 0; i < 1 + 15 * row; ++i) {
       const double azimuth = i % 3 ? bunch + narrow(random) : turn(random);
-      points.push_back(feature(
-          range(random) * beam(azimuth, radians(2.0 * row - 8.0)).cast<float>(), row));
+      points.push_back(
+          feature(range(random) * beam(azimuth, radians(2.0 * row - 8.0)).cast<float>(), row));
     }
   }
   return points;
@@ -64,8 +64,7 @@ TEST(FeatureIndex, FindsTheNearestPointThatBruteForceFinds) {
     for (int k = 0; k < 200; ++k) {
       const Vector3f query(place(random), place(random), 0.1f * place(random));
       for (const float reach : {0.5f, 5.0f, 1000.0f})
-        EXPECT_EQ(index.nearest(query, reach),
-                  brute_force(index.points(), query, -1, reach, -1));
+        EXPECT_EQ(index.nearest(query, reach), brute_force(index.points(), query, -1, reach, -1));
     }
   }
 }
@@ -82,8 +81,7 @@ TEST(FeatureIndex, FindsTheNearestPointOfARowThatBruteForceFinds) {
       if (k % 3 == 0) query = Vector3f(-std::abs(query.x()), 0.01f * query.y(), query.z());
       const int r = row(random);
       for (const float reach : {0.5f, 5.0f, 1000.0f}) {
-        const int expected =
-            r < 0 ? -1 : brute_force(index.points(), query, r, reach, -1);
+        const int expected = r < 0 ? -1 : brute_force(index.points(), query, r, reach, -1);
         EXPECT_EQ(index.nearest_in_row(query, r, reach, -1), expected);
         if (expected >= 0) {
           EXPECT_EQ(index.nearest_in_row(query, r, reach, expected),
@@ -92,6 +90,16 @@ TEST(FeatureIndex, FindsTheNearestPointOfARowThatBruteForceFinds) {
       }
     }
   }
+}
+
+TEST(FeatureIndex, FindsThePointAtTheFarEndOfARowThatLiesOnOneSideOfTheQuery) {
+  std::vector<FeaturePoint> points;
+  points.push_back(feature(10.0f * beam(-0.4, 0.0).cast<float>(), 0));
+  for (int i = 1; i < 100; ++i)
+    points.push_back(feature(20.0f * beam(-0.4 + 0.0039 * i, 0.0).cast<float>(), 0));
+  points.push_back(feature(10.0f * beam(2.0, 0.0).cast<float>(), 0));
+  const FeatureIndex index(points);
+  EXPECT_EQ(index.nearest_in_row(Vector3f(10, 0, 0), 0, 5.0f, -1), 0);
 }
 
 TEST(FeatureIndex, AnEmptyIndexFindsNothing) {
@@ -103,9 +111,9 @@ TEST(FeatureIndex, AnEmptyIndexFindsNothing) {
 // ---- Motion between two made scans.
 
 Features features_at(const Scene& scene, const Pose& T_world_lidar, std::uint64_t seed,
-                     double height = kMadeHeight) {
+                     double height = kMadeHeight, double noise = kNoise) {
   const SensorModel sensor = made_sensor();
-  const Scan scan = take_scan(scene, sensor, T_world_lidar, {.noise = kNoise, .seed = seed});
+  const Scan scan = take_scan(scene, sensor, T_world_lidar, {.noise = noise, .seed = seed});
   return through_stages(scan, sensor, height).features;
 }
 
@@ -200,11 +208,14 @@ TEST(Odometry, OneJointSolveFindsTheMotionToo) {
 }
 
 TEST(Odometry, ACorridorWithoutEndKeepsTheGuessAlongItsAxis) {
+  // So little noise that no point of a wall passes for an edge.
+  constexpr double kHeight = 1.2, kLittle = 0.002;
   Odometry odometry({}, kNoise);
-  odometry.set_previous(features_at(corridor(), pose_of(0, 0, 1.2), 1, 1.2));
+  odometry.set_previous(features_at(corridor(), pose_of(0, 0, kHeight), 1, kHeight, kLittle));
   const Pose truth = motion_of(0.7, 0.1, 0, 0, 0, 1.0);
   const Pose guess = motion_of(0.9, 0, 0, 0, 0, 0);
-  const Features current = features_at(corridor(), pose_of(0, 0, 1.2) * truth, 2, 1.2);
+  const Features current =
+      features_at(corridor(), pose_of(0, 0, kHeight) * truth, 2, kHeight, kLittle);
   const Motion motion = odometry.estimate(current, guess, kSeconds);
   ASSERT_TRUE(motion.solved);
   ASSERT_EQ(motion.localizability.degenerate_translations, 1);

@@ -84,9 +84,9 @@ TEST(RangeImage, PointsThatAreNotFiniteTooNearOrTooFarGoWithAllTheirAttributes) 
   const Scan good = numbered_sweep();
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float infinity = std::numeric_limits<float>::infinity();
-  const std::vector<Vector3f> bad{{nan, 1, 1},  {1, nan, 1},   {1, 1, nan},      {infinity, 0, 0},
-                                  {0, 0, 0},    {0.3f, 0, 0},  {0, -101.0f, 0},  {1e30f, 0, 0},
-                                  {0, 1, -infinity}};
+  const std::vector<Vector3f> bad{{nan, 1, 1},      {1, nan, 1},   {1, 1, nan},
+                                  {infinity, 0, 0}, {0, 0, 0},     {0.3f, 0, 0},
+                                  {0, -101.0f, 0},  {1e30f, 0, 0}, {0, 1, -infinity}};
   Scan mixed;
   mixed.stamp_ns = good.stamp_ns;
   for (std::size_t i = 0; i < good.size(); ++i) {
@@ -122,8 +122,8 @@ TEST(RangeImage, RowsAscendInAzimuthAndPixelsAgreeWithThem) {
       }
     }
   }
-  EXPECT_EQ(static_cast<std::size_t>(
-                std::count_if(image.pixels.begin(), image.pixels.end(), [](int p) { return p >= 0; })),
+  EXPECT_EQ(static_cast<std::size_t>(std::count_if(image.pixels.begin(), image.pixels.end(),
+                                                   [](int p) { return p >= 0; })),
             image.size());
 }
 
@@ -145,11 +145,13 @@ TEST(RangeImage, TheElevationCorrectionTurnsByThatAngleAndKeepsRangeAndAzimuth) 
   const Scan scan = numbered_sweep();
   const RangeImage image = project(scan, sensor);
   for (std::size_t k = 0; k < image.size(); ++k) {
-    const Vector3d before = scan.points[static_cast<std::size_t>(image.intensity[k])].cast<double>();
+    const Vector3d before =
+        scan.points[static_cast<std::size_t>(image.intensity[k])].cast<double>();
     const Vector3d after = image.points[k].cast<double>();
     EXPECT_NEAR(after.norm(), before.norm(), 1e-5 * before.norm());
     EXPECT_NEAR(std::atan2(after.y(), after.x()), std::atan2(before.y(), before.x()), 1e-6);
-    const double raised = std::asin(after.z() / after.norm()) - std::asin(before.z() / before.norm());
+    const double raised =
+        std::asin(after.z() / after.norm()) - std::asin(before.z() / before.norm());
     EXPECT_NEAR(degrees(raised), 0.205, 1e-3);
   }
 }
@@ -185,8 +187,8 @@ TEST(RangeImage, TheAzimuthTellsTheAgeOfARawSweepWithoutTimes) {
       const RangeImage image = project(scan, sensor);
       EXPECT_EQ(image.reference_ns - scan.stamp_ns, 50'000'000);
       for (std::size_t k = 0; k < image.size(); ++k)
-        EXPECT_NEAR(image.age[k],
-                    1e-9 * times[static_cast<std::size_t>(image.intensity[k])] - 0.05, 1e-6);
+        EXPECT_NEAR(image.age[k], 1e-9 * times[static_cast<std::size_t>(image.intensity[k])] - 0.05,
+                    1e-6);
     }
   }
 }

@@ -162,7 +162,9 @@ TEST(RowAssignment, ARingFieldThatSaysNothingIsNotBelieved) {
   expect_rows(rows_of(scan, sensor), truth);
 }
 
-TEST(RowAssignment, NothingHasNoRows) { EXPECT_TRUE(rows_of({}, made_sensor()).empty()); }
+TEST(RowAssignment, NothingHasNoRows) {
+  EXPECT_TRUE(rows_of({}, made_sensor()).empty());
+}
 
 }  // namespace
 }  // namespace lego_loam_sc

@@ -74,7 +74,8 @@ TEST(Ground, ATiltedMountIsTakenOut) {
   const Labelled l = label(street(), sensor, at, kMadeHeight, settings);
   EXPECT_GT(l.ground_share([](const Vector3d& p) {
     return std::abs(p.z()) < 0.03 && p.head<2>().norm() < 20.0;
-  }), 0.95);
+  }),
+            0.95);
   EXPECT_LT(l.ground_share([](const Vector3d& p) { return p.z() > 0.7; }), 0.02);
 
   sensor.mount_roll_deg = sensor.mount_pitch_deg = 0.0;  // not told of it, it finds less
@@ -88,7 +89,8 @@ TEST(Ground, AnEightDegreeSlopeUphillIsGround) {
     Scene scene;
     scene.plane({0, 0, 0}, Vector3d::UnitZ() - std::tan(radians(8.0)) * uphill);
     const Labelled l = label(scene, made_sensor(), pose_of(0, 0, 1.6), 1.6);
-    EXPECT_GT(l.ground_share([&](const Vector3d& p) { return uphill.dot(p) > 0.0 && p.z() < 1.5; }), 0.95);
+    EXPECT_GT(l.ground_share([&](const Vector3d& p) { return uphill.dot(p) > 0.0 && p.z() < 1.5; }),
+              0.95);
   }
 }
 
@@ -226,10 +228,10 @@ TEST(Clusters, AnObjectStraightBehindIsOne) {
 
 TEST(Clusters, NumbersAscendInTheOrderOfAppearance) {
   const SensorModel sensor = made_sensor();
-  const Segmentation s = of_pixels(
-      together(blob(40, 2, 13, 100, 6.0), together(blob(40, 2, 9, 900, 8.0),
-                                                    blob(40, 2, 9, 1500, 7.0))),
-      sensor);
+  const Segmentation s =
+      of_pixels(together(blob(40, 2, 13, 100, 6.0),
+                         together(blob(40, 2, 9, 900, 8.0), blob(40, 2, 9, 1500, 7.0))),
+                sensor);
   EXPECT_EQ(s.clusters, 3);
   std::int32_t highest = -1;
   for (const std::int32_t c : s.cluster) {
@@ -241,8 +243,7 @@ TEST(Clusters, NumbersAscendInTheOrderOfAppearance) {
 TEST(Segmentation, SwitchedOffItKeepsEveryPoint) {
   SegmentationSettings off;
   off.enabled = false;
-  const Labelled l =
-      label(street(), made_sensor(), pose_of(0, 0, kMadeHeight), kMadeHeight, off);
+  const Labelled l = label(street(), made_sensor(), pose_of(0, 0, kMadeHeight), kMadeHeight, off);
   EXPECT_EQ(l.segmentation.segment_points, l.image.size());
   EXPECT_EQ(l.segmentation.ground_points, 0u);
   EXPECT_EQ(std::count(l.segmentation.label.begin(), l.segmentation.label.end(), Label::segment),

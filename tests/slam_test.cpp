@@ -32,7 +32,9 @@ double travelled(double seconds, double speed) {
   return seconds < 1.0 ? 0.5 * speed * seconds * seconds : speed * (seconds - 0.5);
 }
 
-Pose truth_at(double seconds, double speed) { return on_the_oval(travelled(seconds, speed)); }
+Pose truth_at(double seconds, double speed) {
+  return on_the_oval(travelled(seconds, speed));
+}
 
 // Motion since scan `from`, seen from the sensor there.
 Pose truth_between(int from, int to, double speed) {
@@ -52,8 +54,7 @@ std::vector<Scan> drive(int scans, double speed) {
   std::vector<Scan> result;
   for (int k = 0; k < scans; ++k)
     result.push_back(take_sweep(
-        scene, sensor,
-        [&](double seconds) { return truth_at(k * kPeriod + seconds, speed); },
+        scene, sensor, [&](double seconds) { return truth_at(k * kPeriod + seconds, speed); },
         {.stamp_ns = k * kPeriodNs, .noise = kNoise, .seed = 3}));
   return result;
 }
@@ -240,8 +241,7 @@ TEST(Slam, AScanThatIsNotAfterTheOneBeforeIsIgnored) {
   scans.insert(scans.begin() + 8, scans[7]);
   scans.insert(scans.begin() + 5, scans[2]);
   const std::vector<Status> status = statuses(slam, scans);
-  for (int k = 0; k < 14; ++k)
-    EXPECT_EQ(status[k] == Status::out_of_order, k == 5 || k == 9) << k;
+  for (int k = 0; k < 14; ++k) EXPECT_EQ(status[k] == Status::out_of_order, k == 5 || k == 9) << k;
   expect_same(slam, expected);
 }
 

@@ -215,8 +215,7 @@ TEST(VoxelTable, DoesWhatAMapDoes) {
     ASSERT_EQ(table.size(), expected.size());
   }
   EXPECT_EQ(table.keys(), order);
-  for (std::size_t i = 0; i < order.size(); ++i)
-    EXPECT_EQ(table.values()[i], expected[order[i]]);
+  for (std::size_t i = 0; i < order.size(); ++i) EXPECT_EQ(table.values()[i], expected[order[i]]);
   table.clear();
   EXPECT_EQ(table.size(), 0u);
   EXPECT_EQ(table.find(order[0]), nullptr);

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
@@ -68,13 +69,25 @@ void note_fault(const std::string& sentence, RunFacts& facts) {
   facts.faults.push_back(sentence);
 }
 
-std::optional<Scan> first_scan(Input& input, RunFacts& facts) {
+std::optional<Scan> next_scan(Input& input, RunFacts& facts) {
   while (auto item = input.next()) {
     if (auto* scan = std::get_if<Scan>(&*item)) return std::move(*scan);
     if (interrupted()) return std::nullopt;  // it cut the read off, the input is not to blame
     note_fault(std::get<std::string>(*item), facts);
   }
   return std::nullopt;
+}
+
+// The scans up to the first that shows enough to tell the sensor by: a recording may start blind.
+std::deque<Scan> leading_scans(Input& input, RunFacts& facts) {
+  constexpr std::size_t kTelling = 1000;  // points
+  std::deque<Scan> leading;
+  while (leading.empty() || leading.back().size() < kTelling) {
+    std::optional<Scan> scan = next_scan(input, facts);
+    if (!scan) break;
+    leading.push_back(std::move(*scan));
+  }
+  return leading;
 }
 
 SensorModel choose_sensor(const Scan& scan, const DatasetFacts& dataset,
@@ -103,10 +116,10 @@ void run(const Options& options, int& exit_code) {
   if (options.truth) facts.truth = {options.truth->string(), read_poses(*options.truth)};
 
   Input input(options);
-  std::optional<Scan> scan = first_scan(input, facts);
-  if (!scan) throw InputError(options.input + ": no scan could be read; nothing was written");
+  std::deque<Scan> scans = leading_scans(input, facts);
+  if (scans.empty()) throw InputError(options.input + ": no scan could be read; nothing was written");
   const DatasetFacts& dataset = input.source().facts();
-  const SensorModel sensor = choose_sensor(*scan, dataset, common.sensor);
+  const SensorModel sensor = choose_sensor(scans.back(), dataset, common.sensor);
   facts.sensor = sensor.name;
   if (!options.quiet) {
     spdlog::info("sensor {}, method {}", sensor.name, common.method);
@@ -119,10 +132,12 @@ void run(const Options& options, int& exit_code) {
   catch_interrupts();
   {
     Progress progress(expected_scans(input.source(), options), options.quiet);
-    while (scan && !interrupted()) {
-      writer.add(slam.process(*scan));
+    while (!scans.empty() && !interrupted()) {
+      writer.add(slam.process(scans.front()));
       progress.step();
-      scan = first_scan(input, facts);
+      scans.pop_front();
+      if (!scans.empty()) continue;
+      if (std::optional<Scan> scan = next_scan(input, facts)) scans.push_back(std::move(*scan));
     }
   }
   facts.interrupted = interrupted();
