@@ -83,7 +83,7 @@ void mark_ground(const RangeImage& image, const SensorModel& sensor, double sens
           previous_index >= 0 && row - previous_row <= settings.ground_max_row_gap;
       if (neighbours && is_level(previous, point, max_tangent)) {
         const float allowed =
-            tolerance + kHeightPerMetre * std::abs(previous.across - ground.across);
+            tolerance + kHeightPerMetre * std::max(previous.across - ground.across, 0.0f);
         const bool continues = ground_known ? std::abs(previous.z - ground.z) <= allowed
                                             : previous.z < 0.0f;
         if (label[previous_index] == Label::ground || continues) {

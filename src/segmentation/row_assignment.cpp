@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -156,7 +157,9 @@ std::vector<std::int16_t> rows_of_elevation(const Scan& scan,
 
 std::vector<std::int16_t> assign_rows(const Scan& scan, const std::vector<std::uint8_t>& usable,
                                       const SensorModel& sensor) {
-  if (!scan.ring.empty()) {
+  const bool one_ring = std::adjacent_find(scan.ring.begin(), scan.ring.end(),
+                                           std::not_equal_to<>()) == scan.ring.end();
+  if (!one_ring) {  // the same number everywhere, or no field at all, says nothing
     const Groups groups = groups_of_ring_field(scan);
     if (const auto rows = align_to_beams(mean_elevation(scan, usable, groups), sensor))
       return rows_of_groups(groups, *rows);
