@@ -227,17 +227,21 @@ TEST(Features, ABorderThatIsHiddenByANearerObjectIsNoEdge) {
   Scene scene;
   scene.plane({12, 0, 0}, Vector3d::UnitX());
   scene.box({5, -1, -20}, {6, 1, 20});
-  const Features f = features_of(scene, pose_of(0, 0, 1.0));
-  int near = 0;
-  for (const FeaturePoint& p : f.edges_large) {
-    const Vector3d q = p.position.cast<double>();
-    const double azimuth = std::abs(std::atan2(q.y(), q.x()));
-    // The shadow of the box ends at the azimuth of its front corners.
-    const bool at_the_shadow = std::abs(azimuth - std::atan2(1.0, 5.0)) < radians(1.2);
-    EXPECT_FALSE(q.x() > 11.0 && at_the_shadow) << q.transpose();
-    near += q.x() < 7.0 && at_the_shadow;
+  for (const int suppressed : {0, 5}) {
+    Settings settings;
+    settings.features.suppressed_neighbours = suppressed;
+    const Features f = features_of(scene, pose_of(0, 0, 1.0), 0.0, settings);
+    std::set<std::pair<int, bool>> corners;  // row and side
+    for (const FeaturePoint& p : f.edges_large) {
+      const Vector3d q = p.position.cast<double>();
+      const double azimuth = std::abs(std::atan2(q.y(), q.x()));
+      // The shadow of the box ends at the azimuth of its front corners.
+      const bool at_the_shadow = std::abs(azimuth - std::atan2(1.0, 5.0)) < radians(1.2);
+      EXPECT_FALSE(q.x() > 11.0 && at_the_shadow) << q.transpose();
+      if (q.x() < 7.0 && at_the_shadow) corners.emplace(p.row, q.y() > 0.0);
+    }
+    EXPECT_EQ(corners.size(), 2u * 16u);
   }
-  EXPECT_EQ(near, 2 * 16);  // the box's own corners
 }
 
 TEST(Features, NothingHasNoFeatures) {

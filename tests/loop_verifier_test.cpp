@@ -212,6 +212,9 @@ TEST(LoopCloser, TheEdgeLeadsFromTheMatchToTheQueryInTheMatchsFrame) {
     const Pose truth =
         drive.visits[edge.from].T_world_lidar.inverse() * drive.visits[edge.to].T_world_lidar;
     expect_near(edge.T_from_to, truth, 0.05, 0.3);
+    // The neighbours' own poses make the local map sharp; the same pose for all would not.
+    EXPECT_GT(reports.back().verification.overlap, 0.8);
+    EXPECT_LT(reports.back().verification.rmse, 0.075);
   }
 }
 

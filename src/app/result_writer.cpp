@@ -120,14 +120,11 @@ PoseFile of_lidar(PoseFile truth, const std::optional<Pose>& T_camera_lidar) {
   return truth;
 }
 
-nlohmann::ordered_json errors_against(const NamedTruth& truth, const DatasetFacts& dataset,
-                                      const Trajectory& odometry, const Trajectory& trajectory) {
+std::vector<NamedError> errors_against(const NamedTruth& truth, const DatasetFacts& dataset,
+                                       const Trajectory& odometry, const Trajectory& trajectory) {
   const PoseFile poses = of_lidar(truth.poses, dataset.T_camera_lidar);
-  nlohmann::ordered_json errors;
-  errors["truth"] = truth.file;
-  errors["trajectory"] = to_json(evaluate(associate(poses, {trajectory, true})));
-  errors["odometry"] = to_json(evaluate(associate(poses, {odometry, true})));
-  return errors;
+  return {{"trajectory", evaluate(associate(poses, {trajectory, true}))},
+          {"odometry", evaluate(associate(poses, {odometry, true}))}};
 }
 
 }  // namespace
@@ -206,8 +203,11 @@ std::string ResultWriter::finish(const Slam& slam, const DatasetFacts& dataset,
   std::optional<InputError> misfit;  // of the truth; the run's results are worth no less
   try {
     if (facts.truth) {
-      summary["errors"] = errors_against(*facts.truth, dataset, slam.odometry(), trajectory);
-      report += "against truth: " + summary["errors"]["trajectory"].dump() + "\n";
+      const std::vector<NamedError> errors =
+          errors_against(*facts.truth, dataset, slam.odometry(), trajectory);
+      summary["errors"]["truth"] = facts.truth->file;
+      for (const auto& [name, error] : errors) summary["errors"][name] = to_json(error);
+      report += error_table(errors);
     }
   } catch (const InputError& error) {
     misfit.emplace(facts.truth->file + ": " + error.what());
