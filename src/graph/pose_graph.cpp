@@ -2,7 +2,6 @@
 #include "graph/pose_graph.hpp"
 
 #include <gtsam/geometry/Pose3.h>
-#include <gtsam/nonlinear/LevenbergMarquardtOptimizer.h>
 #include <gtsam/nonlinear/NonlinearFactorGraph.h>
 #include <gtsam/slam/PriorFactor.h>
 
@@ -12,46 +11,28 @@
 #include <string>
 #include <utility>
 
+#include "graph/condensed_chain.hpp"
+#include "graph/incremental_solver.hpp"
+#include "graph/relative_pose_factor.hpp"
 #include "graph/stretch.hpp"
 
 namespace lego_loam_sc {
 namespace {
 
 using gtsam::Pose3;
+namespace noise = gtsam::noiseModel;
 
 constexpr double kPriorSigma = 1e-3;  // holds the gauge; any value gives the same poses
 // Largest change of a pose, m and entries of the rotation matrix, after which to stop: the next one
 // would be some hundred times smaller.
 constexpr double kConverged = 1e-5;
-constexpr int kMaxIterations = 20;
+// A few steps do, unless a loop pulls about as hard as its kernel allows: its weight then settles
+// slowly.
+constexpr int kMaxIterations = 100;
 
 Pose from_gtsam(const Pose3& pose) {
   return Pose(pose.matrix());
 }
-
-// || Log(expected^-1 T_a^-1 T_b) + offset ||. GTSAM's own BetweenFactor leaves the derivative of
-// the logarithm out, which shifts the optimum where a residual is large.
-class RelativePoseFactor : public gtsam::NoiseModelFactor2<Pose3, Pose3> {
- public:
-  RelativePoseFactor(int a, int b, const Pose3& expected, const Vector6& offset,
-                     const gtsam::SharedNoiseModel& noise)
-      : NoiseModelFactor2(noise, a, b), inverse_expected_(expected.inverse()), offset_(offset) {}
-
-  gtsam::Vector evaluateError(const Pose3& T_a, const Pose3& T_b,
-                              boost::optional<gtsam::Matrix&> Ha,
-                              boost::optional<gtsam::Matrix&> Hb) const override {
-    const Pose3 relative = T_a.between(T_b);
-    Matrix6 derivative;
-    const Vector6 residual = Pose3::Logmap(inverse_expected_ * relative, derivative) + offset_;
-    if (Ha) *Ha = -derivative * relative.inverse().AdjointMap();
-    if (Hb) *Hb = derivative;
-    return residual;
-  }
-
- private:
-  Pose3 inverse_expected_;
-  Vector6 offset_;
-};
 
 void check(const PoseEdge& edge, const char* kind) {
   const bool finite = edge.T_from_to.matrix().allFinite() && edge.covariance.allFinite();
@@ -67,44 +48,66 @@ class PoseGraph::Solver {
  public:
   explicit Solver(const GraphSettings& settings) : settings_(settings) {}
 
+  void add_first(const Pose& T_map_key);
+  void add_loop(const PoseEdge& loop);
+  void remove_loop(std::ptrdiff_t index);
   void optimise();
 
   std::vector<Pose> poses;
   std::vector<PoseEdge> odometry;
   std::vector<PoseEdge> loops;
-  std::vector<double> kernels;  // one per loop, sigmas
-  bool changed = false;         // loops have come or gone since the last optimisation
-
-  double kernel_of(const PoseEdge& loop) const;
 
  private:
+  double kernel_of(const PoseEdge& loop) const;
   std::vector<int> loop_ends() const;
-  gtsam::Values solve(const std::vector<Stretch>& stretches) const;
   double place_key_frames(const gtsam::Values& ends);
 
   GraphSettings settings_;
-  std::vector<Link> links_;  // one per odometry edge that lies before the last loop end
+  bool changed_ = false;  // loops have come or gone since the last optimisation
+  gtsam::NonlinearFactor::shared_ptr gauge_;
+  std::vector<gtsam::NonlinearFactor::shared_ptr> loop_factors_;
+  CondensedChain chain_;
+  IncrementalSolver incremental_;
 };
 
-void PoseGraph::Solver::optimise() {
-  if (!changed) return;
-  changed = false;
-  const std::vector<int> ends = loop_ends();
-  for (std::size_t i = links_.size(); i < static_cast<std::size_t>(ends.back()); ++i)
-    links_.push_back(unmoved(odometry[i]));
-  links_.resize(ends.back());
+void PoseGraph::Solver::add_first(const Pose& T_map_key) {
+  poses.push_back(T_map_key);
+  gauge_ = boost::make_shared<gtsam::PriorFactor<Pose3>>(
+      0, to_gtsam(T_map_key), noise::Isotropic::Sigma(6, kPriorSigma));
+}
 
-  std::vector<Stretch> stretches(ends.size() - 1);
+void PoseGraph::Solver::add_loop(const PoseEdge& loop) {
+  gtsam::SharedNoiseModel model = noise::Gaussian::Covariance(swap_blocks(loop.covariance));
+  if (settings_.loop_kernel > 0.0)
+    model = noise::Robust::Create(noise::mEstimator::Huber::Create(kernel_of(loop)), model);
+  loops.push_back(loop);
+  loop_factors_.push_back(boost::make_shared<RelativePoseFactor>(
+      loop.from, loop.to, to_gtsam(loop.T_from_to), Vector6::Zero(), model));
+  changed_ = true;
+}
+
+void PoseGraph::Solver::remove_loop(std::ptrdiff_t index) {
+  loops.erase(loops.begin() + index);
+  loop_factors_.erase(loop_factors_.begin() + index);
+  changed_ = true;
+}
+
+void PoseGraph::Solver::optimise() {
+  if (!changed_) return;
+  changed_ = false;
+  const std::vector<int> ends = loop_ends();
+  chain_.divide(ends, odometry);
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    for (std::size_t i = 0; i < links_.size(); ++i)
-      links_[i] = linearised(odometry[i], links_[i].relative);
-    for (std::size_t s = 0; s < stretches.size(); ++s)
-      stretches[s] = condense(links_, ends[s], ends[s + 1]);
-    const gtsam::Values solution = solve(stretches);
-    for (const Stretch& stretch : stretches)
-      expand(stretch, solution.at<Pose3>(stretch.from).between(solution.at<Pose3>(stretch.to)),
-             links_);
-    if (place_key_frames(solution) < kConverged) break;
+    chain_.condense_moved(odometry);
+    gtsam::NonlinearFactorGraph graph;
+    graph.push_back(gauge_);
+    chain_.add_factors(graph);
+    graph.push_back(loop_factors_.begin(), loop_factors_.end());
+    gtsam::Values estimate;
+    for (const int end : ends) estimate.insert(end, to_gtsam(poses[end]));
+    estimate = incremental_.step(graph, estimate);
+    chain_.expand(estimate);
+    if (place_key_frames(estimate) < kConverged) break;
   }
 }
 
@@ -113,9 +116,9 @@ void PoseGraph::Solver::optimise() {
 // the drift; no further than threefold, so that a few true loops outvote a wrong one.
 double PoseGraph::Solver::kernel_of(const PoseEdge& loop) const {
   const auto [first, last] = std::minmax(loop.from, loop.to);
-  std::vector<Link> links(last);
-  for (int i = first; i < last; ++i) links[i] = unmoved(odometry[i]);
-  const Stretch chain = condense(links, first, last);
+  std::vector<Link> links;
+  for (int i = first; i < last; ++i) links.push_back(unmoved(odometry[i]));
+  const Stretch chain = condense(links, 0, last - first);
   const Pose3 measured = to_gtsam(loop.from < loop.to ? loop.T_from_to : loop.T_from_to.inverse());
   const Vector6 drift = Pose3::Logmap(chain.relative.inverse() * measured);
   const Vector6 pull = chain.spread.ldlt().solve(drift);
@@ -132,37 +135,15 @@ std::vector<int> PoseGraph::Solver::loop_ends() const {
   return ends;
 }
 
-gtsam::Values PoseGraph::Solver::solve(const std::vector<Stretch>& stretches) const {
-  namespace noise = gtsam::noiseModel;
-  gtsam::NonlinearFactorGraph graph;
-  gtsam::Values values;
-  values.insert(0, to_gtsam(poses[0]));
-  graph.addPrior(0, to_gtsam(poses[0]), noise::Isotropic::Sigma(6, kPriorSigma));
-  for (const Stretch& stretch : stretches) {
-    values.insert(stretch.to, to_gtsam(poses[stretch.to]));
-    graph.emplace_shared<RelativePoseFactor>(stretch.from, stretch.to, stretch.relative,
-                                             stretch.offset,
-                                             noise::Gaussian::Covariance(stretch.spread));
-  }
-  for (std::size_t l = 0; l < loops.size(); ++l) {
-    const PoseEdge& loop = loops[l];
-    gtsam::SharedNoiseModel model = noise::Gaussian::Covariance(swap_blocks(loop.covariance));
-    if (settings_.loop_kernel > 0.0)
-      model = noise::Robust::Create(noise::mEstimator::Huber::Create(kernels[l]), model);
-    graph.emplace_shared<RelativePoseFactor>(loop.from, loop.to, to_gtsam(loop.T_from_to),
-                                             Vector6::Zero(), model);
-  }
-  return gtsam::LevenbergMarquardtOptimizer(graph, values).optimize();
-}
-
 // Sets all poses from the solved loop ends and the links between them, then the odometry after
 // the last; returns the largest change.
 double PoseGraph::Solver::place_key_frames(const gtsam::Values& ends) {
   double largest_change = 0.0;
   Pose3 T_map_key = to_gtsam(poses[0]);
+  const std::vector<Pose3>& relatives = chain_.relatives();
   for (std::size_t i = 1; i < poses.size(); ++i) {
-    if (i <= links_.size()) {
-      T_map_key = ends.exists(i) ? ends.at<Pose3>(i) : T_map_key * links_[i - 1].relative;
+    if (i <= relatives.size()) {
+      T_map_key = ends.exists(i) ? ends.at<Pose3>(i) : T_map_key * relatives[i - 1];
     } else {
       T_map_key = T_map_key * to_gtsam(odometry[i - 1].T_from_to);
     }
@@ -180,7 +161,7 @@ PoseGraph::~PoseGraph() = default;
 
 void PoseGraph::add_first(const Pose& T_map_key) {
   if (!solver_->poses.empty()) throw std::invalid_argument("the first key frame is there already");
-  solver_->poses.push_back(T_map_key);
+  solver_->add_first(T_map_key);
 }
 
 void PoseGraph::add_key_frame(const PoseEdge& odometry) {
@@ -200,18 +181,13 @@ void PoseGraph::add_loop(const PoseEdge& loop) {
     throw std::invalid_argument("loop edge must join two different key frames of the " +
                                 std::to_string(count));
   check(loop, "loop");
-  solver_->loops.push_back(loop);
-  solver_->kernels.push_back(solver_->kernel_of(loop));
-  solver_->changed = true;
+  solver_->add_loop(loop);
 }
 
 void PoseGraph::remove_loop(std::size_t loop_index) {
   if (loop_index >= solver_->loops.size())
     throw std::invalid_argument("there is no loop edge " + std::to_string(loop_index));
-  const auto index = static_cast<std::ptrdiff_t>(loop_index);
-  solver_->loops.erase(solver_->loops.begin() + index);
-  solver_->kernels.erase(solver_->kernels.begin() + index);
-  solver_->changed = true;
+  solver_->remove_loop(static_cast<std::ptrdiff_t>(loop_index));
 }
 
 void PoseGraph::optimise() {
@@ -244,11 +220,11 @@ Matrix6 PoseGraph::relative_covariance(int a, int b) const {
   if (first < 0 || last >= static_cast<int>(size()))
     throw std::invalid_argument("relative covariance needs two key frames of the " +
                                 std::to_string(size()));
-  std::vector<Link> links(last);
+  std::vector<Link> links;
   for (int i = first; i < last; ++i)
-    links[i] = {to_gtsam(poses()[i]).between(to_gtsam(poses()[i + 1])), Vector6::Zero(),
-                swap_blocks(solver_->odometry[i].covariance)};
-  const Stretch chain = condense(links, first, last);
+    links.push_back({to_gtsam(poses()[i]).between(to_gtsam(poses()[i + 1])), Vector6::Zero(),
+                     swap_blocks(solver_->odometry[i].covariance)});
+  const Stretch chain = condense(links, 0, last - first);
   if (a <= b) return swap_blocks(chain.spread);
   const Matrix6 adjoint = chain.relative.AdjointMap();
   return swap_blocks(adjoint * chain.spread * adjoint.transpose());

@@ -28,10 +28,13 @@ struct PoseEdge {
 /// The key frames, the odometry between them and the loops: paper 2.3 (4) and (6).
 ///
 /// Key frames form a chain, and a loop joins any two of them. Where no loop ends, the chain has
-/// nothing to decide, so each stretch between two loop ends is condensed to one factor before
-/// GTSAM solves for the loop ends, and expanded again afterwards. Repeated until nothing moves,
-/// this is the full Gauss-Newton solution over all key frames at the cost of one over the loop
-/// ends; a key frame without a loop costs one product of poses.
+/// nothing to decide, so each stretch between two neighbouring loop ends is condensed to one
+/// factor. iSAM2 (Kaess et al., "iSAM2: Incremental smoothing and mapping using the Bayes tree",
+/// IJRR 2012) holds the loop ends and keeps its tree from one loop to the next: a loop adds its
+/// factor and splits the stretches that it ends in, and what has moved is linearised anew. Then the
+/// stretches are expanded, and those that have moved are condensed anew in their turn. Repeated
+/// until nothing moves, this is the full Gauss-Newton solution over all key frames at the cost of
+/// one over the loop ends; a key frame without a loop costs one product of poses.
 ///
 /// A loop pulls with a Huber kernel: however far apart drift has taken its ends, its pull never
 /// fades as that of Cauchy or Geman-McClure does, so a true loop closes; and it never grows beyond

@@ -40,15 +40,19 @@ Stretch condense(const std::vector<Link>& links, int from, int to) {
   return stretch;
 }
 
-void expand(const Stretch& stretch, const Pose3& T_from_to, std::vector<Link>& links) {
+double expand(const Stretch& stretch, const Pose3& T_from_to, const std::vector<Link>& links,
+              std::vector<Pose3>& relatives) {
   const Vector6 change = Pose3::Logmap(stretch.relative.inverse() * T_from_to);
   Vector6 pull = stretch.spread.ldlt().solve(change + stretch.offset);
+  double moved = 0.0;
   for (int i = stretch.to - 1; i >= stretch.from; --i) {
-    Link& link = links[i];
-    const Vector6 next_pull = link.relative.inverse().AdjointMap().transpose() * pull;
-    link.relative = link.relative * Pose3::Expmap(link.spread * pull - link.offset);
-    pull = next_pull;
+    const Link& link = links[i];
+    const Vector6 motion = link.spread * pull - link.offset;
+    relatives[i] = link.relative * Pose3::Expmap(motion);
+    moved += motion.norm();
+    pull = link.relative.inverse().AdjointMap().transpose() * pull;
   }
+  return moved;
 }
 
 }  // namespace lego_loam_sc

@@ -43,8 +43,10 @@ struct Stretch {
 /// The links `from` to `to` - 1; link i leads from key frame i to the next.
 Stretch condense(const std::vector<Link>& links, int from, int to);
 
-/// Moves the links of the stretch so that it leads to T_from_to, the change shared by least
-/// squares; exact when the change is small.
-void expand(const Stretch& stretch, const gtsam::Pose3& T_from_to, std::vector<Link>& links);
+/// Poses `relatives` of the links such that the stretch leads to T_from_to, the change shared by
+/// least squares; exact when the change is small. Returns the sum of how far the links move from
+/// where they are linearised, m and rad.
+double expand(const Stretch& stretch, const gtsam::Pose3& T_from_to, const std::vector<Link>& links,
+              std::vector<gtsam::Pose3>& relatives);
 
 }  // namespace lego_loam_sc
