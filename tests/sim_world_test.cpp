@@ -16,9 +16,9 @@ using Eigen::Vector3d;
 
 constexpr std::int64_t second = 1'000'000'000;
 
-double path_length(const Drive& drive) {
+double path_length(const Motion& drive) {
   double length = 0.0;
-  for (std::int64_t t = 0; t < drive.duration_ns(); t += second / 10)
+  for (std::int64_t t = 0; t < drive.duration_ns; t += second / 10)
     length += (drive.pose(t + second / 10).translation() - drive.pose(t).translation()).norm();
   return length;
 }
@@ -34,7 +34,7 @@ TEST_P(SimWorld, IsDecidedByItsSeed) {
   EXPECT_EQ(first.mesh.vertices, again.mesh.vertices);
   EXPECT_EQ(first.mesh.triangles, again.mesh.triangles);
   EXPECT_EQ(first.mesh.reflectivity, again.mesh.reflectivity);
-  EXPECT_TRUE(first.drive.pose(10 * second).isApprox(again.drive.pose(10 * second), 0.0));
+  EXPECT_TRUE(first.motion.pose(10 * second).isApprox(again.motion.pose(10 * second), 0.0));
   EXPECT_NE(first.mesh.vertices, make_world(GetParam(), 4).mesh.vertices);
 }
 
@@ -51,8 +51,8 @@ TEST_P(SimWorld, MeshIsSound) {
 TEST_P(SimWorld, LeavesTheVehicleRoomOnFirmGround) {
   World world = make_world(GetParam(), 1);
   const RayCaster caster(std::move(world.mesh));
-  for (std::int64_t t = 0; t < world.drive.duration_ns(); t += second / 2) {
-    const Pose T_world_vehicle = world.drive.pose(t);
+  for (std::int64_t t = 0; t < world.motion.duration_ns; t += second / 2) {
+    const Pose T_world_vehicle = world.motion.pose(t);
     const Vector3d sensor = T_world_vehicle * Vector3d(0, 0, world.sensor_height);
     const auto ground = caster.cast(sensor, -T_world_vehicle.linear().col(2), 10.0);
     ASSERT_TRUE(ground) << "no ground at " << sensor.transpose();
@@ -70,8 +70,8 @@ TEST_P(SimWorld, LeavesTheVehicleRoomOnFirmGround) {
 TEST_P(SimWorld, HasStructureOnAllSidesOfTheVehicle) {
   World world = make_world(GetParam(), 1);
   const RayCaster caster(std::move(world.mesh));
-  for (std::int64_t t = 0; t < world.drive.duration_ns(); t += 5 * second) {
-    const Pose pose = world.drive.pose(t);
+  for (std::int64_t t = 0; t < world.motion.duration_ns; t += 5 * second) {
+    const Pose pose = world.motion.pose(t);
     const Vector3d sensor = pose * Vector3d(0, 0, world.sensor_height);
     for (int side = 0; side < 4; ++side) {
       int walls = 0;
@@ -86,17 +86,17 @@ TEST_P(SimWorld, HasStructureOnAllSidesOfTheVehicle) {
 }
 
 TEST(SimCarPark, DriveIsALoopThatEndsExactlyAtItsStart) {
-  const Drive drive = make_world("parking", 1).drive;
+  const Motion drive = make_world("parking", 1).motion;
   EXPECT_GT(path_length(drive), 180.0);
-  const Pose change = drive.pose(0).inverse() * drive.pose(drive.duration_ns());
+  const Pose change = drive.pose(0).inverse() * drive.pose(drive.duration_ns);
   EXPECT_LT(change.translation().norm(), 1e-9);
   EXPECT_LT(rotation_angle(change), 1e-9);
 }
 
 TEST(SimStreet, DriveEndsOnItsFirstStreetInTheSameDirection) {
-  const Drive drive = make_world("street", 1).drive;
+  const Motion drive = make_world("street", 1).motion;
   EXPECT_GT(path_length(drive), 1000.0);
-  const Pose end = drive.pose(drive.duration_ns());
+  const Pose end = drive.pose(drive.duration_ns);
   double travelled = 0.0;
   std::int64_t t = 0;
   while ((drive.pose(t).inverse() * end).translation().x() > 0.0) {

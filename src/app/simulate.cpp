@@ -73,11 +73,11 @@ void simulate(const Options& options) {
   const RayCaster caster(std::move(world.mesh));
   const LidarPose lidar_pose =
       [&, T_vehicle_lidar = mounting(sensor, world.sensor_height)](std::int64_t time_ns) -> Pose {
-    return world.drive.pose(time_ns) * T_vehicle_lidar;
+    return world.motion.pose(time_ns) * T_vehicle_lidar;
   };
   const std::int64_t period = std::llround(sensor.period * 1e9);
   // The last scan of a whole drive is taken at rest at its end.
-  const std::int64_t whole_drive = (world.drive.duration_ns() + period - 1) / period + 1;
+  const std::int64_t whole_drive = (world.motion.duration_ns + period - 1) / period + 1;
   const std::int64_t count = options.count.value_or(whole_drive);
   Progress progress(static_cast<std::size_t>(count), isatty(STDERR_FILENO) == 0);
   catch_interrupts();  // a scan half written would spoil the rest

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "sim/drive.hpp"
 #include "sim/props.hpp"
 #include "sim/random.hpp"
 
@@ -206,8 +207,10 @@ Drive make_drive(std::uint64_t seed) {
 }  // namespace
 
 World make_car_park(std::uint64_t seed) {
-  return {
-      .sensor = "rs16", .sensor_height = 0.9, .mesh = make_mesh(seed), .drive = make_drive(seed)};
+  return {.sensor = "rs16",
+          .sensor_height = 0.9,
+          .mesh = make_mesh(seed),
+          .motion = motion_of(make_drive(seed))};
 }
 
 }  // namespace lego_loam_sc

@@ -125,4 +125,10 @@ Pose Drive::shaking_at(double time) const {
   return pose;
 }
 
+Motion motion_of(Drive drive) {
+  const std::int64_t duration_ns = drive.duration_ns();
+  return {[drive = std::move(drive)](std::int64_t time_ns) { return drive.pose(time_ns); },
+          duration_ns};
+}
+
 }  // namespace lego_loam_sc

@@ -7,6 +7,7 @@
 
 #include "core/pose.hpp"
 #include "sim/ground.hpp"
+#include "sim/motion.hpp"
 #include "sim/route.hpp"
 
 namespace lego_loam_sc {
@@ -56,5 +57,7 @@ class Drive {
   std::vector<double> speeds_, times_;  // at equal distances along the route
   std::array<Noise, 4> shaking_;        // roll, pitch, yaw (rad), z (m)
 };
+
+Motion motion_of(Drive drive);
 
 }  // namespace lego_loam_sc

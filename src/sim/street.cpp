@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "sim/drive.hpp"
 #include "sim/facade.hpp"
 #include "sim/props.hpp"
 #include "sim/random.hpp"
@@ -174,7 +175,7 @@ World make_street(std::uint64_t seed) {
   return {.sensor = "hdl64e",
           .sensor_height = 1.73,
           .mesh = make_mesh(seed),
-          .drive = Drive(Route(make_waypoints(), 9.0), terrain, settings)};
+          .motion = motion_of(Drive(Route(make_waypoints(), 9.0), terrain, settings))};
 }
 
 }  // namespace lego_loam_sc

@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "sim/drive.hpp"
 #include "sim/mesh.hpp"
+#include "sim/motion.hpp"
 
 namespace lego_loam_sc {
 
@@ -16,7 +16,7 @@ struct World {
   std::string_view sensor;  ///< preset that suits the place
   double sensor_height;     ///< m above the ground, for sensors that do not state their own
   Mesh mesh;
-  Drive drive;
+  Motion motion;         ///< of the vehicle that carries the sensor
 };
 
 std::span<const std::string_view> world_names();

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "core/pose.hpp"
+
+namespace lego_loam_sc {
+
+/// How something moves: the exact truth at any time. Called from many threads at once.
+struct Motion {
+  /// T_world_vehicle; the vehicle frame lies on the ground in the middle of the wheels. Before the
+  /// start and after the end the vehicle rests.
+  std::function<Pose(std::int64_t time_ns)> pose;
+  std::int64_t duration_ns = 0;
+};
+
+}  // namespace lego_loam_sc
