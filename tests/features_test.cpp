@@ -13,6 +13,7 @@
 
 #include "features/roughness.hpp"
 #include "made_scenes.hpp"
+#include "mapping/voxel_filter.hpp"
 
 namespace lego_loam_sc {
 namespace {
@@ -171,6 +172,40 @@ TEST(Features, AscendInRowAndColumn) {
       return std::pair(a.row, a.column) < std::pair(b.row, b.column);
     }));
   }
+}
+
+// Were points taken for their noise, as by a greedy walk that takes the first one far enough from the
+// last, those of a wall would be too near where the scan approaches it and too far where it leaves: all
+// walls turned alike, and a map of them turns a little more with every scan.
+TEST(Features, NoiseDoesNotTurnTheWallsThroughTheChoiceOfPoints) {
+  Scene walls;
+  walls.plane({0, 0, 0}, {0, 0, 1}).plane({0, 8, 0}, {0, 1, 0}).plane({0, -8, 0}, {0, 1, 0});
+  SensorModel sensor = made_sensor();
+  sensor.range_noise = 0.02;
+  double turned = 0.0, turned_and_thinned = 0.0;
+  int count = 0, thinned_count = 0;
+  const auto outwards = [](const FeaturePoint& p) {
+    return std::copysign(std::abs(p.position.y()) - 8.0, p.position.x() * p.position.y());
+  };
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const Scan scan =
+        take_scan(walls, sensor, pose_of(0, 0, kMadeHeight), {.noise = 0.02, .seed = seed});
+    std::vector<FeaturePoint> planars =
+        through_stages(scan, sensor, kMadeHeight, {}).features.planars_large;
+    std::erase_if(planars, [](const FeaturePoint& p) { return std::abs(p.position.y()) < 7.0f; });
+    for (const FeaturePoint& p : planars) turned += outwards(p);
+    count += static_cast<int>(planars.size());
+    for (const FeaturePoint& p :
+         voxel_filter(planars, 1.0, [](const FeaturePoint& q) { return q.position; })) {
+      turned_and_thinned += outwards(p);
+      ++thinned_count;
+    }
+  }
+  ASSERT_GT(count, 20000);
+  ASSERT_GT(thinned_count, 5000);
+  // The noise across the wall has less than 2 cm, so these are five sigmas of the means.
+  EXPECT_NEAR(turned / count, 0.0, 5.0 * 0.02 / std::sqrt(count));
+  EXPECT_NEAR(turned_and_thinned / thinned_count, 0.0, 5.0 * 0.02 / std::sqrt(thinned_count));
 }
 
 TEST(Features, EdgesAreNeverOnTheGroundAndFlatPointsAlwaysWhenThereIsEnough) {

@@ -9,6 +9,8 @@
 #include <limits>
 #include <map>
 #include <random>
+#include <set>
+#include <tuple>
 #include <vector>
 
 #include "mapping/voxel_filter.hpp"
@@ -221,12 +223,26 @@ TEST(VoxelTable, DoesWhatAMapDoes) {
   EXPECT_EQ(table.find(order[0]), nullptr);
 }
 
-TEST(VoxelFilter, KeepsTheFirstPointOfEachVoxelInTheirOrder) {
+TEST(VoxelFilter, KeepsOnePointOfEachVoxelInTheirOrder) {
   const auto position = [](const Vector3d& p) { return p; };
-  const std::vector<Vector3d> points{{0.9, 0, 0}, {0.1, 0, 0}, {-0.1, 0, 0}, {5, 5, 5},
-                                     {0.5, 0, 0}, {5.1, 5, 5}, {1e30, 0, 0}};
-  const std::vector<Vector3d> expected{points[0], points[2], points[3]};
-  EXPECT_EQ(voxel_filter(points, 1.0, position), expected);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> coordinate(-5.0, 5.0);
+  std::vector<Vector3d> points;
+  for (int i = 0; i < 3000; ++i)
+    points.emplace_back(coordinate(random), coordinate(random), coordinate(random));
+  points.emplace_back(1e30, 0, 0);
+  const auto voxel = [](const Vector3d& p) {
+    return std::tuple(std::floor(p.x() / 2.0), std::floor(p.y() / 2.0), std::floor(p.z() / 2.0));
+  };
+  const std::vector<Vector3d> kept = voxel_filter(points, 2.0, position);
+  std::set<std::tuple<double, double, double>> voxels;
+  auto next = points.begin();
+  for (const Vector3d& p : kept) {
+    EXPECT_TRUE(voxels.insert(voxel(p)).second);
+    next = std::find(next, points.end(), p);
+    ASSERT_NE(next, points.end());
+  }
+  EXPECT_EQ(voxels.size(), 216u);
   EXPECT_EQ(voxel_filter(points, 0.0, position), points);
 }
 

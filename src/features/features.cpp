@@ -157,16 +157,25 @@ void pick_planars(Ranked& candidates, const FeatureSettings& settings, Row& row,
   }
 }
 
+// m from one point to the next along the row at i, which has all its neighbours. The point itself has
+// no say: were the distance to the last pick measured, its noise would decide whether it is picked,
+// and all walls would seem turned in the sense of the scan.
+float local_step(const RangeImage& image, const FeatureSettings& settings, const Row& row, int i) {
+  const int n = settings.neighbours;
+  const auto point = [&](int k) { return image.points[row.index[(k + row.size()) % row.size()]]; };
+  return (point(i + n) - point(i - n)).norm() / static_cast<float>(2 * n);
+}
+
 // The large planar set without a count: every smooth point, thinned along the row.
 void spread_planars(const RangeImage& image, const std::vector<std::uint8_t>& smooth,
                     const FeatureSettings& settings, Row& row) {
-  const float squared = static_cast<float>(settings.planar_spacing * settings.planar_spacing);
-  int last = -1;
+  const auto spacing = static_cast<float>(settings.planar_spacing);
+  int last = -row.size();
   for (int i = 0; i < row.size(); ++i) {
     const bool flat = row.pick[i] == Pick::planar_flat;
     if (!flat && (row.pick[i] != Pick::none || !smooth[i])) continue;
-    const bool apart = last < 0 || (image.points[row.index[i]] - image.points[row.index[last]])
-                                           .squaredNorm() >= squared;
+    const bool apart =
+        static_cast<float>(i - last) * local_step(image, settings, row, i) >= spacing;
     if (!flat && !apart) continue;
     if (!flat) row.pick[i] = Pick::planar_large;
     last = i;
