@@ -55,7 +55,7 @@ TEST(KeyFrame, HoldsOnePointOfEachVoxelAndNoneTwice) {
   const Scan scan = take_scan(street(), sensor, pose_of(0, 0, kMadeHeight), {.stamp_ns = 5'000});
   const Staged s = through_stages(scan, sensor, kMadeHeight);
   const KeyFrame key_frame =
-      make_key_frame(s.image, s.segmentation, s.features, Vector6::Zero(), 12.5, kSpacing);
+      make_key_frame(s.image, s.segmentation, s.features, s.image.points, 12.5, kSpacing);
   EXPECT_EQ(key_frame.reference_ns, 5'000);
   EXPECT_EQ(key_frame.travelled, 12.5);
   EXPECT_FALSE(key_frame.planars.empty());

@@ -28,7 +28,7 @@ Visit visit(const Scene& scene, const Pose& T_world_lidar, std::uint64_t seed) {
   const Scan scan = take_scan(scene, sensor, T_world_lidar, {.noise = kNoise, .seed = seed});
   const Staged s = through_stages(scan, sensor, kMadeHeight);
   return {T_world_lidar,
-          make_key_frame(s.image, s.segmentation, s.features, Vector6::Zero(), 0.0, 0.3),
+          make_key_frame(s.image, s.segmentation, s.features, s.image.points, 0.0, 0.3),
           make_scan_context(s.image.points, kMadeHeight, {})};
 }
 

@@ -107,6 +107,24 @@ TEST(SimDrive, TheVehicleStandsOnTheGround) {
   }
 }
 
+TEST(SimDrive, AWayThatPassesOverItselfHasTheGroundOfEachPart) {
+  // Up a slope that ends at x = 20, round, and across it on the level.
+  const auto slope = [](double x, double) {
+    return x < 20.0 ? 3.0 - 0.0075 * (20 - x) * (20 - x) : 3.0;
+  };
+  const auto level = [](double, double) { return 3.0; };
+  const Route route({{0, 0}, {30, 0}, {30, 20}, {10, 20}, {10, -20}}, 3.0);
+  const Drive drive(route, std::vector<Stretch>{{0.0, slope}, {24.0, level}}, {});
+  std::vector<double> heights;  // over the crossing
+  for (std::int64_t t = 0; t < drive.duration_ns(); t += 10 * millisecond) {
+    const Vector3d place = drive.pose(t).translation();
+    if ((place.head<2>() - Vector2d(10, 0)).norm() < 0.02) heights.push_back(place.z());
+  }
+  ASSERT_GE(heights.size(), 2u);
+  EXPECT_NEAR(heights.front(), 2.25, 0.01);
+  EXPECT_NEAR(heights.back(), 3.0, 1e-9);
+}
+
 TEST(SimDrive, ShakingHasTheAskedForStrength) {
   DriveSettings settings;
   settings.shaking = {.roll_deg = 1.0, .pitch_deg = 0.5, .yaw_deg = 0.2, .z = 0.01};

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <optional>
+#include <vector>
+
 #include "sim/ray_caster.hpp"
 
 namespace lego_loam_sc {
@@ -42,6 +45,31 @@ TEST(SimRayCaster, RangesKeepTheirPrecisionFarFromTheOrigin) {
   ASSERT_TRUE(hit);
   EXPECT_NEAR(hit->range, 3.00001 / direction.x(), 1e-9);
   EXPECT_NEAR(hit->cos_incidence, direction.x(), 1e-12);
+}
+
+TEST(SimRayCaster, AFanOfRaysMeetsWhatEachRayMeetsAlone) {
+  Mesh mesh;
+  for (int i = 0; i < 40; ++i)
+    add_box(mesh, Pose(Eigen::Translation3d(3.0 + i % 7, 0.7 * i - 14.0, -1.0)),
+            {0.4, 0.5, 1.0 + 0.05 * i}, 0.5);
+  const RayCaster world(mesh);
+  const Vector3d origin(0.1, 0.2, 0.3);
+  std::vector<Vector3d> directions;
+  for (int i = 0; i < 101; ++i)  // not a whole number of packets
+    directions.push_back(Vector3d(1.0, 0.04 * i - 2.0, -0.05 + 0.001 * i).normalized());
+  std::vector<std::optional<Hit>> hits(directions.size());
+  world.cast(origin, directions, 12.0, hits);
+  int met = 0;
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    const auto alone = world.cast(origin, directions[i], 12.0);
+    ASSERT_EQ(hits[i].has_value(), alone.has_value()) << i;
+    if (!alone) continue;
+    ++met;
+    EXPECT_EQ(hits[i]->range, alone->range);
+    EXPECT_EQ(hits[i]->cos_incidence, alone->cos_incidence);
+  }
+  EXPECT_GT(met, 30);
+  EXPECT_LT(met, 101);
 }
 
 TEST(SimRayCaster, AnEmptyWorldReturnsNothing) {

@@ -11,6 +11,7 @@
 
 #include "app/commands.hpp"
 #include "app/common_options.hpp"
+#include "app/external_command.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "app/result_writer.hpp"
@@ -30,6 +31,7 @@ namespace {
 struct Options {
   CommonOptions common;
   std::string input;
+  std::optional<std::string> topic;
   std::optional<std::filesystem::path> output;
   std::optional<std::filesystem::path> truth;
   int threads = 2;
@@ -42,8 +44,12 @@ struct Options {
 // thread for it.
 class Input {
  public:
-  explicit Input(const Options& options)
-      : source_(open_scans(options.input)), left_(options.count) {
+  explicit Input(const Options& options) : left_(options.count) {
+    if (is_recording(options.input))
+      reader_.emplace(options.input, options.topic, options.quiet);
+    else if (options.topic)
+      throw InputError("--topic is for bags, " + options.input + " is none; leave it out");
+    source_ = open_scans(reader_ ? "-" : options.input);
     for (std::size_t k = 0; k < options.first; ++k)
       if (!read_next(*source_)) break;
     if (options.threads > 1) prefetcher_.emplace(*source_);
@@ -52,14 +58,21 @@ class Input {
   std::optional<ScanOrFault> next() {
     if (left_ && *left_ == 0) return std::nullopt;
     if (left_) --*left_;
-    return prefetcher_ ? prefetcher_->next() : read_next(*source_);
+    std::optional<ScanOrFault> item = prefetcher_ ? prefetcher_->next() : read_next(*source_);
+    at_end_ = !item && !interrupted();
+    return item;
   }
+
+  // How the reader of a recording ended: 0 when it did well, is not done or there is none.
+  int reader_exit_code() { return reader_ && at_end_ ? reader_->wait() : 0; }
 
   const ScanSource& source() const { return *source_; }
 
  private:
+  std::optional<RecordingReader> reader_;
   std::unique_ptr<ScanSource> source_;
   std::optional<std::size_t> left_;
+  bool at_end_ = false;
   std::optional<ScanPrefetcher> prefetcher_;
 };
 
@@ -76,6 +89,19 @@ std::optional<Scan> next_scan(Input& input, RunFacts& facts) {
     note_fault(std::get<std::string>(*item), facts);
   }
   return std::nullopt;
+}
+
+// What the reader of a recording found wrong, which it has said itself unless it broke off. False
+// when there is nothing.
+bool note_reader_fault(Input& input, RunFacts& facts) {
+  const int exit_code = input.reader_exit_code();
+  if (exit_code == 1)
+    facts.faults.push_back(facts.input + " was not read in full, lego-loam-sc-read said why");
+  else if (exit_code != 0)
+    note_fault(facts.input + ": lego-loam-sc-read broke off with code " +
+                   std::to_string(exit_code) + "; the scans before that count",
+               facts);
+  return exit_code != 0;
 }
 
 // The scans up to the first that shows enough to tell the sensor by: a recording may start blind.
@@ -117,6 +143,10 @@ void run(const Options& options, int& exit_code) {
 
   Input input(options);
   std::deque<Scan> scans = leading_scans(input, facts);
+  if (scans.empty() && note_reader_fault(input, facts)) {
+    exit_code = 1;
+    return;
+  }
   if (scans.empty()) throw InputError(options.input + ": no scan could be read; nothing was written");
   const DatasetFacts& dataset = input.source().facts();
   const SensorModel sensor = choose_sensor(scans.back(), dataset, common.sensor);
@@ -140,6 +170,7 @@ void run(const Options& options, int& exit_code) {
       if (std::optional<Scan> scan = next_scan(input, facts)) scans.push_back(std::move(*scan));
     }
   }
+  note_reader_fault(input, facts);
   facts.interrupted = interrupted();
   facts.wall_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -154,9 +185,10 @@ void add_run(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("run", "Run the SLAM on the scans of INPUT");
   auto options = std::make_shared<Options>();
   command->add_option("INPUT", options->input,
-                      "KITTI sequence folder, folder of .bin, .pcd or .ply scans, or - for a scan "
-                      "stream on standard input")
+                      "KITTI sequence folder, folder of .bin, .pcd or .ply scans, ROS bag, Velodyne "
+                      ".pcap, or - for a scan stream on standard input")
       ->required();
+  command->add_option("--topic", options->topic, "topic of a bag, when several hold PointCloud2");
   command->add_option("-o,--output", options->output, "folder for the results, new or empty");
   add_common_options(*command, options->common);
   command->add_option("--threads", options->threads, "bound on all threads")

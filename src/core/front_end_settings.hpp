@@ -134,6 +134,7 @@ struct MappingSettings {
   int min_matches = 50;
   double min_matched_share = 0.3;
   double min_strength = 3.0;
+  bool elevation_bias = true;
 
   template <class Self, class Visit>
   static void fields(Self& s, Visit&& visit) {
@@ -160,6 +161,8 @@ struct MappingSettings {
           "smallest share of the points that must find a surface");
     visit("min_strength", s.min_strength, 0.0, 1000.0,
           "constraints that must hold each direction, else it is degenerate and keeps the guess");
+    visit("elevation_bias", s.elevation_bias,
+          "find and correct a common error of the beams' elevation angles on the way");
   }
 };
 

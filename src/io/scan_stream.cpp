@@ -25,6 +25,11 @@ std::string_view bytes_of(const std::vector<T>& array) {
   return {reinterpret_cast<const char*>(array.data()), array.size() * sizeof(T)};
 }
 
+void check(const std::ostream& out) {
+  if (!out)
+    throw InputError("the scan stream cannot be written, its reader has ended or the disk is full");
+}
+
 }  // namespace
 
 ScanStreamWriter::ScanStreamWriter(std::ostream& out, const DatasetFacts& facts) : out_(out) {
@@ -33,7 +38,7 @@ ScanStreamWriter::ScanStreamWriter(std::ostream& out, const DatasetFacts& facts)
   append(header, kVersion);
   append(header, static_cast<std::uint32_t>(text.size()));
   out_ << header << text;
-  if (!out_) throw InputError("the scan stream cannot be written");
+  check(out_);
 }
 
 void ScanStreamWriter::write(const Scan& scan) {
@@ -49,7 +54,7 @@ void ScanStreamWriter::write(const Scan& scan) {
   append(head, static_cast<std::uint32_t>(scan.size()));
   out_ << head << bytes_of(scan.points) << bytes_of(scan.intensity) << bytes_of(scan.ring)
        << bytes_of(scan.offset_ns);
-  if (!out_) throw InputError("the scan stream cannot be written");
+  check(out_);
 }
 
 ScanStreamReader::ScanStreamReader(std::istream& in, std::string name)

@@ -9,9 +9,14 @@ namespace {
 void insert(std::vector<SurfaceMap>& maps, const std::vector<FeaturePoint>& points,
             const Pose& T_map_points) {
   std::vector<Eigen::Vector3d> moved;
+  std::vector<double> ranges;
   moved.reserve(points.size());
-  for (const FeaturePoint& p : points) moved.push_back(T_map_points * p.position.cast<double>());
-  for (SurfaceMap& map : maps) map.insert(moved);
+  ranges.reserve(points.size());
+  for (const FeaturePoint& p : points) {
+    moved.push_back(T_map_points * p.position.cast<double>());
+    ranges.push_back(p.position.head<2>().norm());
+  }
+  for (SurfaceMap& map : maps) map.insert(moved, ranges);
 }
 
 void match(std::vector<SurfaceMap>& maps, const std::vector<FeaturePoint>& points,
@@ -26,7 +31,9 @@ void match(std::vector<SurfaceMap>& maps, const std::vector<FeaturePoint>& point
       const auto kind = surface.kind == Surface::Kind::plane ? Correspondence::Kind::plane
                                                              : Correspondence::Kind::line;
       const double weight = 1.0 / (range_noise * range_noise + surface.variance);
-      const Correspondence c{kind, point, surface.mean, surface.direction, weight};
+      const double range_difference = point.head<2>().norm() - surface.range;
+      const Correspondence c{kind,   point, surface.mean, surface.direction,
+                             weight, range_difference};
       if (distance(c, T_map_points) <= max_distance) correspondences.push_back(c);
       break;
     }

@@ -130,6 +130,11 @@ MapMatch Mapper::refine(const Features& features, const ScanGuess& guess) {
     match.iterations += result.iterations;
     if (result.step < kConvergedStep) break;
   }
+  if (settings_.elevation_bias) {
+    NormalEquations<6> solution = normal_equations(correspondences, pose, scale);
+    prior.add_to(solution, pose);
+    elevation_bias_.add(correspondences, pose, scale, solution);
+  }
   match.matched = true;
   match.T_map_lidar = normalized(pose);
   match.rmse = weighted_rmse(correspondences, pose, scale);

@@ -4,6 +4,7 @@
 #include "core/pose.hpp"
 #include "core/settings.hpp"
 #include "features/features.hpp"
+#include "mapping/elevation_bias.hpp"
 #include "mapping/local_map.hpp"
 #include "odometry/localizability.hpp"
 
@@ -38,6 +39,10 @@ class Mapper {
   /// previous scan, corrected as the pose is being refined.
   MapMatch refine(const Features& features, const ScanGuess& guess);
 
+  /// rad; error of the elevation angles that the scans so far have shown, see ElevationBias. 0 when
+  /// it is not to be estimated.
+  double elevation_bias() const { return elevation_bias_.value(); }
+
   /// Adds features that are already de-skewed, and forgets what is out of reach.
   void insert(const Features& deskewed, const Pose& T_map_lidar);
 
@@ -48,6 +53,7 @@ class Mapper {
   MappingSettings settings_;
   double range_noise_;
   LocalMap map_;
+  ElevationBias elevation_bias_;
   Eigen::Vector3d last_eviction_ = Eigen::Vector3d::Zero();
 };
 

@@ -3,6 +3,8 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
+#include <optional>
 
 namespace lego_loam_sc {
 namespace {
@@ -18,39 +20,57 @@ constexpr double kGrowth = 0.1;
 
 SurfaceMap::SurfaceMap(const SurfaceMapSettings& settings) : settings_(settings) {}
 
-void SurfaceMap::insert(std::span<const Eigen::Vector3d> points) {
-  for (const Eigen::Vector3d& point : points) {
-    const Eigen::Vector3d scaled = point / settings_.voxel_size;
-    const auto key = key_of(scaled);
-    if (!key) continue;
-    const auto [voxel, is_new] = voxels_.find_or_insert(*key);
-    if (is_new)
-      voxel.origin = (scaled.array().floor() + 0.5).matrix() * settings_.voxel_size;
-    const Eigen::Vector3d d = point - voxel.origin;
-    voxel.sum += d;
-    voxel.square.head<3>() += d.cwiseAbs2();
-    voxel.square[3] += d.x() * d.y();
-    voxel.square[4] += d.x() * d.z();
-    voxel.square[5] += d.y() * d.z();
-    ++voxel.count;
+// The lowest corner of a cell moved by `cells` along each axis, m.
+Eigen::Vector3d SurfaceMap::corner_of(const Cell& cell, double cells) const {
+  const Eigen::Vector3d corner(static_cast<double>(cell[0]), static_cast<double>(cell[1]),
+                               static_cast<double>(cell[2]));
+  return (corner.array() + cells).matrix() * settings_.voxel_size;
+}
+
+void SurfaceMap::insert(std::span<const Eigen::Vector3d> points,
+                        std::span<const double> ranges) {
+  // The table is larger than the caches: each voxel is fetched a few points ahead.
+  constexpr std::size_t kAhead = 8;
+  std::array<std::optional<Cell>, kAhead> ahead;
+  for (std::size_t next = 0; next < points.size() + kAhead; ++next) {
+    std::optional<Cell>& cell = ahead[next % kAhead];
+    if (next >= kAhead && cell) {
+      const std::size_t i = next - kAhead;
+      add(points[i], ranges.empty() ? 0.0 : ranges[i], *cell);
+    }
+    if (next >= points.size()) continue;
+    cell = cell_of(points[next] / settings_.voxel_size);
+    if (cell) voxels_.prefetch(pack_cell(*cell));
   }
   ++revision_;
 }
 
+void SurfaceMap::add(const Eigen::Vector3d& point, double range, const Cell& cell) {
+  const auto [voxel, is_new] = voxels_.find_or_insert(pack_cell(cell));
+  if (is_new) voxel.origin = corner_of(cell, 0.5);
+  const Eigen::Vector3d d = point - voxel.origin;
+  voxel.sum += d;
+  voxel.square.head<3>() += d.cwiseAbs2();
+  voxel.square[3] += d.x() * d.y();
+  voxel.square[4] += d.x() * d.z();
+  voxel.square[5] += d.y() * d.z();
+  voxel.range += range;
+  ++voxel.count;
+}
+
 const Surface& SurfaceMap::surface_at(const Eigen::Vector3d& point) {
-  const Eigen::Vector3d corner = ((point / settings_.voxel_size).array() - 0.5).floor();
-  const auto key = key_of(corner);
-  if (!key) return nothing_;
-  const auto [block, is_new] = blocks_.find_or_insert(*key);
+  const auto corner = cell_of((point / settings_.voxel_size).array() - 0.5);
+  if (!corner) return nothing_;
+  const auto [block, is_new] = blocks_.find_or_insert(pack_cell(*corner));
   if (block.revision == revision_) return block.surface;
   block.revision = revision_;
-  if (is_new) block.middle = (corner.array() + 1.0).matrix() * settings_.voxel_size;
+  if (is_new) block.middle = corner_of(*corner, 1.0);
 
   std::array<const Voxel*, 8> voxels{};
   std::uint32_t count = 0;
   for (int i = 0; i < 8; ++i) {
-    const Eigen::Vector3d cell = corner + Eigen::Vector3d(i & 1, (i >> 1) & 1, (i >> 2) & 1);
-    if (const auto voxel_key = key_of(cell)) voxels[i] = voxels_.find(*voxel_key);
+    const auto& [x, y, z] = *corner;
+    voxels[i] = voxels_.find(pack_cell(x + (i & 1), y + ((i >> 1) & 1), z + ((i >> 2) & 1)));
     if (voxels[i]) count += voxels[i]->count;
   }
   if (count >= kMinPoints && count > (1.0 + kGrowth) * block.count) {
@@ -65,6 +85,7 @@ Surface SurfaceMap::fit(const std::array<const Voxel*, 8>& voxels, std::uint32_t
   // Sums of all voxels, moved to the middle of the block.
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
+  double range = 0.0;
   for (const Voxel* v : voxels) {
     if (!v) continue;
     const Eigen::Vector3d o = v->origin - middle;
@@ -73,6 +94,7 @@ Surface SurfaceMap::fit(const std::array<const Voxel*, 8>& voxels, std::uint32_t
     own << s[0], s[3], s[4], s[3], s[1], s[5], s[4], s[5], s[2];
     square += own + v->sum * o.transpose() + o * v->sum.transpose() + v->count * o * o.transpose();
     sum += v->sum + v->count * o;
+    range += v->range;
   }
   const Eigen::Vector3d mean = sum / count;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
@@ -81,6 +103,7 @@ Surface SurfaceMap::fit(const std::array<const Voxel*, 8>& voxels, std::uint32_t
 
   Surface surface;
   surface.mean = middle + mean;
+  surface.range = range / count;
   const double spread = kMinSpread * settings_.voxel_size;
   if (settings_.kind == Surface::Kind::plane) {
     if (variance[1] < spread * spread || variance[0] > settings_.planarity * variance[1])

@@ -20,6 +20,7 @@ struct Surface {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();       ///< map frame, m
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< unit normal, or direction of the line
   double variance = 0.0;  ///< m^2, of the points across the surface
+  double range = 0.0;     ///< m, mean horizontal range from which its points were seen
 };
 
 struct SurfaceMapSettings {
@@ -37,8 +38,9 @@ class SurfaceMap {
  public:
   explicit SurfaceMap(const SurfaceMapSettings& settings);
 
-  /// Adds points, map frame, m.
-  void insert(std::span<const Eigen::Vector3d> points);
+  /// Adds points, map frame, m, and the horizontal ranges (m) from which they were seen; without
+  /// ranges these are 0.
+  void insert(std::span<const Eigen::Vector3d> points, std::span<const double> ranges = {});
 
   /// The surface of the block round `point`; kind `none` where there is no clear one. A plane has
   /// variances l1 <= l2 <= l3 along its axes with l1 <= planarity * l2, a line l2 <= planarity * l3.
@@ -55,18 +57,21 @@ class SurfaceMap {
 
  private:
   struct Voxel {
+    std::uint32_t count = 0;
     Eigen::Vector3d origin;                                 // centre of the voxel, map frame
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();          // of the points less the origin
     Eigen::Matrix<double, 6, 1> square = Eigen::Matrix<double, 6, 1>::Zero();  // xx yy zz xy xz yz
-    std::uint32_t count = 0;
+    double range = 0.0;  // sum
   };
   struct Block {
+    std::uint32_t revision = 0;  // of the map when the block was last looked at
+    std::uint32_t count = 0;     // points at the last fit
     Surface surface;
     Eigen::Vector3d middle;
-    std::uint32_t count = 0;     // points at the last fit
-    std::uint32_t revision = 0;  // of the map when the block was last looked at
   };
 
+  void add(const Eigen::Vector3d& point, double range, const Cell& cell);
+  Eigen::Vector3d corner_of(const Cell& cell, double cells) const;
   Surface fit(const std::array<const Voxel*, 8>& voxels, std::uint32_t count,
               const Eigen::Vector3d& middle) const;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -16,18 +17,35 @@ using VoxelKey = std::uint64_t;
 
 constexpr std::int64_t kMaxCell = (1 << 20) - 1;
 
+/// A cell by its number along each axis, from -kMaxCell to kMaxCell.
+using Cell = std::array<std::int64_t, 3>;
+
 constexpr VoxelKey pack_cell(std::int64_t x, std::int64_t y, std::int64_t z) {
   const auto bits = [](std::int64_t v) { return static_cast<VoxelKey>(v) & 0x1fffff; };
   return bits(x) << 42 | bits(y) << 21 | bits(z);
 }
 
-/// The key of a point scaled to units of cells; nothing for a point out of the grid's range or not
-/// finite, which must never alias into it.
+constexpr VoxelKey pack_cell(const Cell& cell) { return pack_cell(cell[0], cell[1], cell[2]); }
+
+/// The cell of a point scaled to units of cells; nothing for a point out of the grid's range, whose
+/// outermost cells stay free, or not finite, which must never alias into it.
+inline std::optional<Cell> cell_of(const Eigen::Vector3d& scaled) {
+  Cell cell;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double v = scaled[axis];
+    if (!(std::abs(v) < static_cast<double>(kMaxCell))) return std::nullopt;
+    const auto towards_zero = static_cast<std::int64_t>(v);
+    cell[axis] = towards_zero - (v < static_cast<double>(towards_zero) ? 1 : 0);
+    if (cell[axis] == -kMaxCell) return std::nullopt;
+  }
+  return cell;
+}
+
+/// The key of such a point's cell.
 inline std::optional<VoxelKey> key_of(const Eigen::Vector3d& scaled) {
-  const Eigen::Vector3d cell = scaled.array().floor();
-  if (!(cell.array().abs() < static_cast<double>(kMaxCell)).all()) return std::nullopt;
-  return pack_cell(static_cast<std::int64_t>(cell.x()), static_cast<std::int64_t>(cell.y()),
-                   static_cast<std::int64_t>(cell.z()));
+  const std::optional<Cell> cell = cell_of(scaled);
+  if (!cell) return std::nullopt;
+  return pack_cell(*cell);
 }
 
 /// A hash table from cells to values: open addressing, values in one array in the order of their
@@ -54,6 +72,11 @@ class VoxelTable {
       if (slots_[s].index == kEmpty) return nullptr;
       if (slots_[s].key == key) return &values_[slots_[s].index];
     }
+  }
+
+  /// Fetches what a look at the cell will need, while the caller does something else.
+  void prefetch(VoxelKey key) const {
+    if (!slots_.empty()) __builtin_prefetch(&slots_[first_slot(key)]);
   }
 
   /// The value of the cell and whether it was made by this call.
@@ -99,12 +122,15 @@ class VoxelTable {
 
   std::size_t mask() const { return slots_.size() - 1; }
 
-  // Fibonacci hashing of the mixed key: neighbouring cells spread over the table.
+  // Fibonacci hashing of the mixed key. The eight cells of a cube of 2 x 2 x 2 lie side by side:
+  // who looks at one looks at its neighbours next.
   std::size_t first_slot(VoxelKey key) const {
-    key ^= key >> 29;
-    key *= 0x9e3779b97f4a7c15ull;
-    key ^= key >> 32;
-    return key & mask();
+    const std::size_t corner = (key & 1) | (key >> 20 & 2) | (key >> 40 & 4);
+    VoxelKey cube = key & ~pack_cell(1, 1, 1);
+    cube ^= cube >> 29;
+    cube *= 0x9e3779b97f4a7c15ull;
+    cube ^= cube >> 32;
+    return (cube << 3 | corner) & mask();
   }
 
   void grow() { rebuild(slots_.empty() ? kFewestSlots : 2 * slots_.size()); }

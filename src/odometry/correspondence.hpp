@@ -21,6 +21,7 @@ struct Correspondence {
   Eigen::Vector3d anchor;     ///< on the plane or line, in the target frame, m
   Eigen::Vector3d direction;  ///< unit normal of the plane, or unit direction of the line
   double weight = 1.0;        ///< 1 / variance of the distance, 1/m^2
+  double range_difference = 0.0;  ///< m; horizontal range of the point less that of the plane
 };
 
 /// Distance of the transformed point from its plane or line, m, >= 0.

@@ -14,14 +14,6 @@ SweepMotion::SweepMotion(const Vector6& twist, float span) : span_(span) {
   if (span > 0.0f) steps_per_second_ = kSteps / (2.0f * span);
 }
 
-Eigen::Vector3f SweepMotion::operator()(const Eigen::Vector3f& point, float age) const {
-  const float position = (age + span_) * steps_per_second_;
-  const int step = std::clamp(static_cast<int>(position), 0, kSteps - 1);
-  const float share = position - static_cast<float>(step);
-  const Transform transform = (1.0f - share) * transforms_[step] + share * transforms_[step + 1];
-  return transform.leftCols<3>() * point + transform.col(3);
-}
-
 float age_span(const std::vector<FeaturePoint>& points) {
   float span = 0.0f;
   for (const FeaturePoint& p : points) span = std::max(span, std::abs(p.age));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -16,7 +17,14 @@ class SweepMotion {
   /// `twist` in m/s and rad/s, `span` the largest absolute age in s.
   SweepMotion(const Vector6& twist, float span);
 
-  Eigen::Vector3f operator()(const Eigen::Vector3f& point, float age) const;
+  Eigen::Vector3f operator()(const Eigen::Vector3f& point, float age) const {
+    const float position = (age + span_) * steps_per_second_;
+    const int step = std::clamp(static_cast<int>(position), 0, kSteps - 1);
+    const float share = position - static_cast<float>(step);
+    const Transform transform =
+        (1.0f - share) * transforms_[step] + share * transforms_[step + 1];
+    return transform.leftCols<3>() * point + transform.col(3);
+  }
 
  private:
   // Transforms at equal steps of age, blended linearly: over 0.1 s at even 10 rad/s the blend is off

@@ -94,12 +94,14 @@ int FeatureIndex::nearest_in_row(const Eigen::Vector3f& query, int row, float ma
   int best = -1;
   float best_squared = max_distance * max_distance;
   const auto visit = [&](int position) {
-    const RowEntry& entry = begin[(position % count + count) % count];
+    const RowEntry& entry =
+        begin[position < 0 ? position + count : position < count ? position : position - count];
     float turn = std::abs(entry.azimuth - azimuth);
     if (turn > std::numbers::pi_v<float>) turn = 2.0f * std::numbers::pi_v<float> - turn;
     if (turn < 0.5f * std::numbers::pi_v<float>) {
-      // The slack covers the error of fast_atan2.
-      const float bound = across * std::sin(std::max(turn - 5e-5f, 0.0f));
+      // The slack covers the error of fast_atan2; t - t^3 / 6 is a little less than sin(t).
+      const float t = std::max(turn - 5e-5f, 0.0f);
+      const float bound = across * t * (1.0f - t * t / 6.0f);
       if (bound * bound > best_squared) return false;
     } else if (across * across > best_squared) {
       return false;

@@ -13,15 +13,16 @@ inline float fast_atan2(float y, float x) {
   const float ax = std::abs(x);
   const float ay = std::abs(y);
   const float larger = ax > ay ? ax : ay;
-  if (larger == 0.0f) return 0.0f;
-  const float a = (ax > ay ? ay : ax) / larger;
+  const float smaller = ax > ay ? ay : ax;
+  const float a = smaller / (larger == 0.0f ? 1.0f : larger);
   const float s = a * a;
   float r =
       a * (0.99997726f +
            s * (-0.33262347f +
                 s * (0.19354346f + s * (-0.11643287f + s * (0.05265332f + s * -0.01172120f)))));
-  if (ay > ax) r = 0.5f * std::numbers::pi_v<float> - r;
-  if (x < 0.0f) r = std::numbers::pi_v<float> - r;
+  // Selections instead of branches: a loop over many points becomes vector instructions.
+  r = ay > ax ? 0.5f * std::numbers::pi_v<float> - r : r;
+  r = x < 0.0f ? std::numbers::pi_v<float> - r : r;
   return y < 0.0f ? -r : r;
 }
 

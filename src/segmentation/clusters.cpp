@@ -14,6 +14,16 @@ namespace {
 // Columns that a horizontal pair may be apart: one empty pixel in between breaks no surface.
 constexpr int kMaxColumnStep = 2;
 
+// Neighbours along a row that are one object: the sets that columns join are made of these instead
+// of points, because there are ten times fewer of them.
+struct Runs {
+  std::vector<std::int32_t> of_point;  // -1 on the ground
+  std::vector<std::int32_t> row;
+  std::vector<std::int32_t> points;
+
+  std::int32_t count() const { return static_cast<std::int32_t>(row.size()); }
+};
+
 class UnionFind {
  public:
   explicit UnionFind(std::size_t count) : parent_(count) {
@@ -61,41 +71,78 @@ class SameObject {
   float sine_, cosine_, tangent_, slack_;
 };
 
-void join_rows(const RangeImage& image, const std::vector<Label>& label, double limit_tangent,
-               double slack, UnionFind& sets) {
-  const double step = 2.0 * std::numbers::pi / image.columns;
-  std::vector<SameObject> same;
-  for (int gap = 0; gap <= kMaxColumnStep; ++gap)
-    same.emplace_back(std::max(gap, 1) * step, limit_tangent, slack);
+// Whether two neighbours in a row, some columns apart, are one object.
+class SameInRow {
+ public:
+  SameInRow(int columns, double limit_tangent, double slack) {
+    for (int gap = 0; gap <= kMaxColumnStep; ++gap)
+      of_gap_.emplace_back(std::max(gap, 1) * 2.0 * std::numbers::pi / columns, limit_tangent,
+                           slack);
+  }
 
-  const auto try_join = [&](std::uint32_t a, std::uint32_t b, int gap) {
-    if (gap > kMaxColumnStep || label[a] == Label::ground || label[b] == Label::ground) return;
-    if (same[gap](image.range[a], image.range[b]))
-      sets.join(static_cast<std::int32_t>(a), static_cast<std::int32_t>(b));
-  };
+  bool operator()(const RangeImage& image, std::uint32_t a, std::uint32_t b, int gap) const {
+    return gap <= kMaxColumnStep && of_gap_[gap](image.range[a], image.range[b]);
+  }
+
+ private:
+  std::vector<SameObject> of_gap_;
+};
+
+Runs make_runs(const RangeImage& image, const std::vector<Label>& label, const SameInRow& same) {
+  Runs runs;
+  runs.of_point.resize(image.size());
   for (int row = 0; row < image.rows; ++row) {
-    const std::uint32_t begin = image.row_begin[row];
+    std::int32_t run = -1;  // that the point before belongs to
+    for (std::uint32_t i = image.row_begin[row]; i < image.row_begin[row + 1]; ++i) {
+      if (label[i] == Label::ground) {
+        run = -1;
+      } else if (run < 0 || !same(image, i - 1, i, image.column[i] - image.column[i - 1])) {
+        run = runs.count();
+        runs.row.push_back(row);
+        runs.points.push_back(0);
+      }
+      runs.of_point[i] = run;
+      if (run >= 0) ++runs.points[run];
+    }
+  }
+  return runs;
+}
+
+// A row goes on from its last column to its first.
+void join_seams(const RangeImage& image, const SameInRow& same, const Runs& runs,
+                UnionFind& sets) {
+  for (int row = 0; row < image.rows; ++row) {
+    const std::uint32_t first = image.row_begin[row];
     const std::uint32_t end = image.row_begin[row + 1];
-    if (end - begin < 2) continue;
-    for (std::uint32_t i = begin + 1; i < end; ++i)
-      try_join(i - 1, i, image.column[i] - image.column[i - 1]);
-    try_join(end - 1, begin, image.column[begin] + image.columns - image.column[end - 1]);
+    if (end - first < 2) continue;
+    const std::int32_t a = runs.of_point[end - 1];
+    const std::int32_t b = runs.of_point[first];
+    const int gap = image.column[first] + image.columns - image.column[end - 1];
+    if (a >= 0 && b >= 0 && same(image, end - 1, first, gap)) sets.join(a, b);
   }
 }
 
-void join_columns(const RangeImage& image, const SensorModel& sensor,
-                  const std::vector<Label>& label, double limit_tangent, double slack,
-                  UnionFind& sets) {
+void join_columns(const RangeImage& image, const SensorModel& sensor, const Runs& runs,
+                  double limit_tangent, double slack, UnionFind& sets) {
   for (int row = 0; row + 1 < image.rows; ++row) {
     const double alpha = radians(sensor.elevation_deg[row + 1] - sensor.elevation_deg[row]);
     const SameObject same(alpha, limit_tangent, slack);
+    // Most pairs lie between the same two runs as the pair before.
+    std::int32_t joined_lower = -1;
+    std::int32_t joined_upper = -1;
     for (int column = 0; column < image.columns; ++column) {
       const std::int32_t a = image.pixel(row, column);
-      if (a < 0 || label[a] == Label::ground) continue;
+      if (a < 0) continue;
       std::int32_t b = image.pixel(row + 1, column);
-      if (b < 0) b = image.pixel(row + 1, (column + 1) % image.columns);
-      if (b < 0 || label[b] == Label::ground) continue;
-      if (same(image.range[a], image.range[b])) sets.join(a, b);
+      if (b < 0) b = image.pixel(row + 1, column + 1 < image.columns ? column + 1 : 0);
+      if (b < 0) continue;
+      const std::int32_t lower = runs.of_point[a];
+      const std::int32_t upper = runs.of_point[b];
+      if (lower < 0 || upper < 0 || (lower == joined_lower && upper == joined_upper)) continue;
+      if (!same(image.range[a], image.range[b])) continue;
+      sets.join(lower, upper);
+      joined_lower = lower;
+      joined_upper = upper;
     }
   }
 }
@@ -113,34 +160,37 @@ int cluster(const RangeImage& image, const SensorModel& sensor,
             std::vector<std::int32_t>& cluster) {
   const double limit_tangent = std::tan(radians(settings.cluster_angle_deg));
   const double slack = 3.0 * sensor.range_noise;
-  UnionFind sets(image.size());
-  join_rows(image, label, limit_tangent, slack, sets);
-  join_columns(image, sensor, label, limit_tangent, slack, sets);
+  const SameInRow same_in_row(image.columns, limit_tangent, slack);
+  const Runs runs = make_runs(image, label, same_in_row);
+  UnionFind sets(runs.row.size());
+  join_seams(image, same_in_row, runs, sets);
+  join_columns(image, sensor, runs, limit_tangent, slack, sets);
 
-  std::vector<Extent> extent(image.size());
-  for (int row = 0; row < image.rows; ++row) {
-    for (std::uint32_t i = image.row_begin[row]; i < image.row_begin[row + 1]; ++i) {
-      if (label[i] == Label::ground) continue;
-      Extent& e = extent[sets.root(static_cast<std::int32_t>(i))];
-      ++e.points;
-      if (e.last_row != row) ++e.rows;
-      e.last_row = row;
-    }
+  std::vector<Extent> extent(runs.row.size());
+  for (std::int32_t run = 0; run < runs.count(); ++run) {
+    Extent& e = extent[sets.root(run)];
+    e.points += runs.points[run];
+    if (e.last_row != runs.row[run]) ++e.rows;
+    e.last_row = runs.row[run];
   }
 
   int clusters = 0;
-  cluster.assign(image.size(), -1);
-  for (std::size_t i = 0; i < image.size(); ++i) {
-    if (label[i] == Label::ground) continue;
-    const std::int32_t root = sets.root(static_cast<std::int32_t>(i));
+  std::vector<std::int32_t> cluster_of(runs.row.size(), -1);
+  for (std::int32_t run = 0; run < runs.count(); ++run) {
+    const std::int32_t root = sets.root(run);
     const Extent& e = extent[root];
     const bool large = e.points >= settings.cluster_min_points;
     const bool thin = e.points >= settings.thin_cluster_min_points &&
                       e.rows >= settings.thin_cluster_min_rows;
-    if (!large && !thin) continue;
-    label[i] = Label::segment;
     // A root is the smallest index of its cluster, hence numbered before its members.
-    cluster[i] = cluster[root] >= 0 ? cluster[root] : clusters++;
+    if (large || thin) cluster_of[run] = run == root ? clusters++ : cluster_of[root];
+  }
+
+  cluster.resize(image.size());
+  for (std::size_t i = 0; i < image.size(); ++i) {
+    const std::int32_t run = runs.of_point[i];
+    cluster[i] = run < 0 ? -1 : cluster_of[run];
+    if (cluster[i] >= 0) label[i] = Label::segment;
   }
   return clusters;
 }

@@ -59,6 +59,15 @@ void mark_pixel(const RangeImage& image, std::int32_t nearest, float tolerance,
   for (std::int32_t k = nearest - 1; k >= 0 && same(k); --k) label[k] = Label::ground;
 }
 
+// What a column knows after the rows below.
+struct Column {
+  LevelPoint ground;  // the last ground point; at first the point below the sensor
+  LevelPoint previous{};
+  std::int32_t previous_index = -1;
+  int previous_row = 0;
+  bool ground_known = false;
+};
+
 }  // namespace
 
 void mark_ground(const RangeImage& image, const SensorModel& sensor, double sensor_height,
@@ -68,34 +77,36 @@ void mark_ground(const RangeImage& image, const SensorModel& sensor, double sens
   const float tolerance = static_cast<float>(settings.ground_height_tolerance);
   const int rows = ground_rows(sensor, settings);
 
-  for (int column = 0; column < image.columns; ++column) {
-    // The last ground point of the column; at first the point below the sensor.
-    LevelPoint ground{0.0f, -static_cast<float>(sensor_height)};
-    bool ground_known = sensor_height > 0.0;
-    LevelPoint previous{};
-    std::int32_t previous_index = -1;
-    int previous_row = -1;
-    for (int row = 0; row < rows; ++row) {
-      const std::int32_t index = image.pixel(row, column);
+  // All columns climb together, because the image lies in memory row by row.
+  Column start;
+  start.ground = {0.0f, -static_cast<float>(sensor_height)};
+  start.ground_known = sensor_height > 0.0;
+  std::vector<Column> columns(image.columns, start);
+  for (int row = 0; row < rows; ++row) {
+    for (int k = 0; k < image.columns; ++k) {
+      const std::int32_t index = image.pixel(row, k);
       if (index < 0) continue;
+      Column& column = columns[k];
+      const LevelPoint& previous = column.previous;
       const LevelPoint point = level(image.points[index]);
       const bool neighbours =
-          previous_index >= 0 && row - previous_row <= settings.ground_max_row_gap;
+          column.previous_index >= 0 && row - column.previous_row <= settings.ground_max_row_gap;
       if (neighbours && is_level(previous, point, max_tangent)) {
         const float allowed =
-            tolerance + kHeightPerMetre * std::max(previous.across - ground.across, 0.0f);
-        const bool continues = ground_known ? std::abs(previous.z - ground.z) <= allowed
-                                            : previous.z < 0.0f;
-        if (label[previous_index] == Label::ground || continues) {
-          mark_pixel(image, previous_index, tolerance, label);
+            tolerance + kHeightPerMetre * std::max(previous.across - column.ground.across, 0.0f);
+        const bool continues = column.ground_known
+                                   ? std::abs(previous.z - column.ground.z) <= allowed
+                                   : previous.z < 0.0f;
+        if (label[column.previous_index] == Label::ground || continues) {
+          mark_pixel(image, column.previous_index, tolerance, label);
           mark_pixel(image, index, tolerance, label);
-          ground = point;
-          ground_known = true;
+          column.ground = point;
+          column.ground_known = true;
         }
       }
-      previous = point;
-      previous_index = index;
-      previous_row = row;
+      column.previous = point;
+      column.previous_index = index;
+      column.previous_row = row;
     }
   }
 }

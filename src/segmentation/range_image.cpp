@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <utility>
 
 #include "core/pose.hpp"
 #include "segmentation/azimuth.hpp"
@@ -71,32 +73,31 @@ void assign_times(const Scan& scan, const std::vector<std::uint32_t>& source,
 RangeImage project(const Scan& scan, const SensorModel& sensor) {
   const std::vector<std::uint8_t> usable = usable_points(scan, sensor);
   const std::vector<std::int16_t> row = assign_rows(scan, usable, sensor);
+  std::vector<float> azimuth(scan.size());
+  for (std::size_t i = 0; i < scan.size(); ++i)
+    azimuth[i] = fast_atan2(scan.points[i].y(), scan.points[i].x());
 
   RangeImage image;
   image.rows = sensor.rows();
   image.columns = sensor.columns;
   const std::size_t pixels = static_cast<std::size_t>(image.rows) * image.columns;
 
-  // Counting sort by pixel, then by azimuth within a pixel.
-  std::vector<float> azimuth(scan.size());
+  // Counting sort by pixel. The counts stand two places up: their sums are the beginnings of the
+  // pixels one place up, and placing the points moves each to the end of its pixel.
   std::vector<std::uint32_t> pixel(scan.size());
-  std::vector<std::uint32_t> begin(pixels + 1, 0);
+  std::vector<std::uint32_t> begin(pixels + 2, 0);
   const float columns_per_radian = image.columns / (2.0f * std::numbers::pi_v<float>);
   for (std::size_t i = 0; i < scan.size(); ++i) {
     if (!usable[i] || row[i] < 0) continue;
-    azimuth[i] = fast_atan2(scan.points[i].y(), scan.points[i].x());
     int column = static_cast<int>((azimuth[i] + std::numbers::pi_v<float>) * columns_per_radian);
     if (column >= image.columns) column -= image.columns;
     pixel[i] = static_cast<std::uint32_t>(row[i]) * image.columns + column;
-    ++begin[pixel[i] + 1];
+    ++begin[pixel[i] + 2];
   }
-  for (std::size_t p = 0; p < pixels; ++p) begin[p + 1] += begin[p];
-  std::vector<std::uint32_t> source(begin[pixels]);
-  {
-    std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
-    for (std::size_t i = 0; i < scan.size(); ++i)
-      if (usable[i] && row[i] >= 0) source[next[pixel[i]]++] = static_cast<std::uint32_t>(i);
-  }
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<std::uint32_t> source(begin.back());
+  for (std::size_t i = 0; i < scan.size(); ++i)
+    if (usable[i] && row[i] >= 0) source[begin[pixel[i] + 1]++] = static_cast<std::uint32_t>(i);
 
   const std::size_t count = source.size();
   image.points.resize(count);
@@ -110,21 +111,26 @@ RangeImage project(const Scan& scan, const SensorModel& sensor) {
 
   const float sine = static_cast<float>(std::sin(radians(sensor.elevation_correction_deg)));
   const float cosine = static_cast<float>(std::cos(radians(sensor.elevation_correction_deg)));
-  for (std::size_t p = 0; p < pixels; ++p) {
-    if (begin[p + 1] - begin[p] > 1)
-      std::stable_sort(source.begin() + begin[p], source.begin() + begin[p + 1],
-                       [&](std::uint32_t a, std::uint32_t b) { return azimuth[a] < azimuth[b]; });
-    std::int32_t nearest = -1;
-    for (std::uint32_t k = begin[p]; k < begin[p + 1]; ++k) {
-      const Eigen::Vector3f& point = scan.points[source[k]];
-      image.points[k] = sine == 0.0f ? point : raise(point, sine, cosine);
-      image.range[k] = point.norm();
-      image.column[k] = static_cast<std::uint16_t>(p % image.columns);
-      if (!scan.intensity.empty()) image.intensity[k] = scan.intensity[source[k]];
-      if (nearest < 0 || image.range[k] < image.range[nearest])
-        nearest = static_cast<std::int32_t>(k);
+  const auto by_azimuth = [&](std::uint32_t a, std::uint32_t b) {
+    return std::pair(azimuth[a], a) < std::pair(azimuth[b], b);
+  };
+  for (int r = 0; r < image.rows; ++r) {
+    for (int c = 0; c < image.columns; ++c) {
+      const std::size_t p = static_cast<std::size_t>(r) * image.columns + c;
+      if (begin[p + 1] - begin[p] > 1)
+        std::sort(source.begin() + begin[p], source.begin() + begin[p + 1], by_azimuth);
+      std::int32_t nearest = -1;
+      for (std::uint32_t k = begin[p]; k < begin[p + 1]; ++k) {
+        const Eigen::Vector3f& point = scan.points[source[k]];
+        image.points[k] = sine == 0.0f ? point : raise(point, sine, cosine);
+        image.range[k] = point.norm();
+        image.column[k] = static_cast<std::uint16_t>(c);
+        if (!scan.intensity.empty()) image.intensity[k] = scan.intensity[source[k]];
+        if (nearest < 0 || image.range[k] < image.range[nearest])
+          nearest = static_cast<std::int32_t>(k);
+      }
+      image.pixels[p] = nearest;
     }
-    image.pixels[p] = nearest;
   }
   assign_times(scan, source, azimuth, sensor, image);
   return image;

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/car_park.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <numbers>
 #include <utility>
+#include <vector>
 
+#include "sim/concrete.hpp"
 #include "sim/drive.hpp"
-#include "sim/props.hpp"
 #include "sim/random.hpp"
+#include "sim/storey.hpp"
 
 namespace lego_loam_sc {
 namespace {
@@ -17,200 +15,170 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// The plan, m. Aisles run along x, cross aisles along y.
-constexpr double kLength = 80.0, kWidth = 50.0, kCeiling = 2.8;
-constexpr std::array<double, 3> kAisles = {8.4, 25.0, 41.6};
-constexpr std::array<double, 3> kCrossAisles = {7.0, 40.0, 73.0};
-constexpr std::array<double, 6> kBayRows = {2.6, 14.1, 19.3, 30.7, 35.9, 47.4};
-constexpr std::array<double, 2> kBayBlocks = {10.5, 44.5};  // where the bays of a row begin
-constexpr int kBaysInBlock = 10;
-constexpr double kBayWidth = 2.5;
-constexpr double kRampLow = 22.0, kRampHigh = 28.0, kRampLength = 16.0;
+constexpr double kSensorHeight = 0.9;           // m
+constexpr double kBump = 0.05, kGully = -0.03;  // m
 
-constexpr double kConcrete = 0.35, kAsphalt = 0.2, kRubber = 0.1, kSteel = 0.4, kPaint = 0.7;
-
-struct Bump {
-  double x, y;  // of its middle
-};
-constexpr std::array<Bump, 4> kBumps = {
-    {{30.0, kAisles[1]}, {60.0, kAisles[1]}, {55.0, kAisles[2]}, {25.0, kAisles[0]}}};
-constexpr double kBumpHeight = 0.05, kBumpAlong = 0.4, kBumpAcross = 2.6;  // half extents
-
-double hump(double offset, double half_extent) {
-  if (std::abs(offset) >= half_extent) return 0.0;
-  return 0.5 + 0.5 * std::cos(std::numbers::pi * offset / half_extent);
+// What all the halls have in common: three aisles along x in a width of 50 m.
+StoreyPlan hall(double length) {
+  StoreyPlan plan;
+  plan.length = length;
+  plan.width = 50.0;
+  plan.aisles = {8.4, 25.0, 41.6};
+  plan.bay_rows = {2.6, 14.1, 19.3, 30.7, 35.9, 47.4};
+  plan.square_columns = {16.7, 33.3};
+  plan.round_columns = {5.0, 45.0};
+  return plan;
 }
 
-double floor_height(double x, double y) {
-  const double shoulder = 0.5;
-  double height = 0.0;
-  for (const Bump& b : kBumps) {
-    const double beside = std::max(0.0, std::abs(y - b.y) - (kBumpAcross - shoulder));
-    height += kBumpHeight * hump(x - b.x, kBumpAlong) * hump(beside, shoulder);
-  }
-  return height;
+StoreyPlan parking_plan() {
+  StoreyPlan plan = hall(80.0);
+  plan.cross_aisles = {7.0, 40.0, 73.0};
+  plan.bay_blocks = {{10.5, 10}, {44.5, 10}};
+  plan.cores = {{{1.6, 33.0}, {3.2, 7.0}}, {{78.2, 8.0}, {3.6, 5.0}}};
+  plan.openings = {{{80.0, 25.0}, 6.0}};
+  plan.bumps = {{30.0, 25.0, kBump}, {60.0, 25.0, kBump}, {55.0, 41.6, kBump}, {25.0, 8.4, kBump}};
+  return plan;
 }
 
-Pose place(double x, double y, double z = 0.0, double yaw_deg = 0.0) {
-  return Eigen::Translation3d(x, y, z) * Eigen::AngleAxisd(radians(yaw_deg), Vector3d::UnitZ());
+StoreyPlan parking1_plan() {
+  StoreyPlan plan = hall(76.0);
+  plan.cross_aisles = {7.0, 38.0, 69.0};
+  plan.bay_blocks = {{11.0, 9}, {42.0, 9}};
+  plan.cores = {{{1.6, 34.0}, {3.2, 7.0}}, {{74.2, 42.0}, {3.6, 5.0}}};
+  plan.openings = {{{0.0, 25.0}, 6.0}, {{76.0, 8.4}, 6.0}};
+  plan.bumps = {{20.0, 8.4, kBump},  {32.0, 8.4, kGully},  {56.0, 8.4, kBump}, {54.0, 25.0, kGully},
+                {48.0, 25.0, kBump}, {30.0, 41.6, kGully}, {18.0, 41.6, kBump}};
+  return plan;
 }
 
-void add_floor_and_ceiling(Mesh& mesh) {
-  for (const auto& [z, reflectivity] : {std::pair(0.0, kAsphalt), std::pair(kCeiling, kConcrete)})
-    add_quad(mesh,
-             {Vector3d(0, 0, z), Vector3d(kLength, 0, z), Vector3d(kLength, kWidth, z),
-              Vector3d(0, kWidth, z)},
-             reflectivity);
-  for (const Bump& b : kBumps)
-    add_height_field(mesh, floor_height, {b.x - kBumpAlong, b.y - kBumpAcross},
-                     {b.x + kBumpAlong, b.y + kBumpAcross}, 0.1, 0.001, kRubber);
-  for (double x = 3.75; x < kLength; x += 7.5)
-    add_box(mesh, place(x, 0.5 * kWidth, kCeiling - 0.4), {0.35, kWidth, 0.4}, kConcrete);
+// parking2: the ramps run side by side south of the halls, from x = kWest to x = kEast.
+constexpr double kWest = 14.0, kEast = 51.0, kStoreyHeight = 3.2;
+constexpr Ramp kDown = {kWest - 3.0, kEast + 3.0, -3.25, 0.0, -kStoreyHeight};
+constexpr Ramp kUp = {kWest - 3.0, kEast + 3.0, -8.75, -kStoreyHeight, 0.0};
+
+StoreyPlan parking2_plan() {
+  StoreyPlan plan = hall(65.0);
+  plan.cross_aisles = {kWest, kEast};
+  plan.bay_blocks = {{0.5, 4}, {17.5, 12}, {54.5, 4}};
+  plan.cores = {{{1.6, 25.0}, {3.2, 6.0}}, {{63.2, 25.0}, {3.6, 5.0}}};
+  plan.openings = {{{kWest, 0.0}, Ramp::kLanding}, {{kEast, 0.0}, Ramp::kLanding}};
+  plan.bumps = {{22.0, 8.4, kBump},  {31.0, 8.4, kGully},  {42.0, 8.4, kBump},
+                {26.0, 25.0, kBump}, {40.0, 25.0, kGully}, {32.0, 41.6, kBump}};
+  return plan;
 }
 
-// A wall in panels that stand back by different amounts, with doors, pilasters and cabinets. The
-// room lies to the left of the way from `start` to `end`.
-void add_wall(Mesh& mesh, const Vector2d& start, const Vector2d& end, Random& random) {
-  const Vector2d along = (end - start).normalized();
-  Pose wall = place(start.x(), start.y(), 0.0, degrees(std::atan2(along.y(), along.x())));
-  const auto panel = [&](double xa, double ya, double xb, double yb, double reflectivity) {
-    add_quad(mesh,
-             {wall * Vector3d(xa, ya, 0), wall * Vector3d(xb, yb, 0),
-              wall * Vector3d(xb, yb, kCeiling), wall * Vector3d(xa, ya, kCeiling)},
-             reflectivity);
-  };
-  const double total = (end - start).norm();
-  double x = 0.0;
-  double setback = 0.0;
-  while (x < total) {
-    const bool is_door = random.chance(0.2);
-    const double next = std::min(total, x + (is_door ? 1.2 : random.uniform(2.5, 6.0)));
-    const double next_setback = is_door ? 0.3 : random.chance(0.5) ? 0.0 : 0.15;
-    panel(x, -setback, x, -next_setback, kConcrete);
-    panel(x, -next_setback, next, -next_setback, is_door ? kPaint : kConcrete);
-    if (!is_door && random.chance(0.4))
-      add_box(mesh, wall * Eigen::Translation3d(x, 0.05, 0.0), {0.4, 0.5, kCeiling}, kConcrete);
-    if (!is_door && random.chance(0.2))
-      add_box(mesh, wall * Eigen::Translation3d(0.5 * (x + next), 0.15, 0.6), {0.8, 0.3, 1.1},
-              kSteel);
-    x = next;
-    setback = next_setback;
-  }
-  panel(total, -setback, total, 0.0, kConcrete);
-}
-
-void add_ramp(Mesh& mesh) {
-  const double end = kLength + kRampLength;
-  add_quad(mesh,
-           {Vector3d(kLength, kRampLow, 0), Vector3d(end, kRampLow, kCeiling),
-            Vector3d(end, kRampHigh, kCeiling), Vector3d(kLength, kRampHigh, 0)},
-           kAsphalt);
-  for (const double y : {kRampLow, kRampHigh}) {
-    add_box(mesh, place(0.5 * (kLength + end), y), {kRampLength, 0.3, 6.0}, kConcrete);
-    add_box(mesh, place(kLength + 3.0, y, 0.8), {6.0, 0.4, 0.15}, kSteel);  // a crash rail
-  }
-  add_box(mesh, place(end, 0.5 * (kRampLow + kRampHigh)), {0.3, kRampHigh - kRampLow, 6.0}, kSteel);
-}
-
-void add_walls(Mesh& mesh, Random& random) {
-  add_wall(mesh, {0, 0}, {kLength, 0}, random);
-  add_wall(mesh, {kLength, 0}, {kLength, kRampLow}, random);
-  add_wall(mesh, {kLength, kRampHigh}, {kLength, kWidth}, random);
-  add_wall(mesh, {kLength, kWidth}, {0, kWidth}, random);
-  add_wall(mesh, {0, kWidth}, {0, 0}, random);
-  // The stair core and a store stand in the room.
-  add_box(mesh, place(1.6, 33.0), {3.2, 7.0, kCeiling}, kConcrete);
-  add_box(mesh, place(3.22, 34.5), {0.06, 1.1, 2.1}, kPaint);
-  add_box(mesh, place(78.2, 8.0), {3.6, 5.0, kCeiling}, kConcrete);
-}
-
-void add_parked_cars(Mesh& mesh, Random& random) {
-  for (const double row : kBayRows) {
-    for (const double block : kBayBlocks) {
-      for (int bay = 0; bay < kBaysInBlock; ++bay) {
-        if (random.chance(0.25)) continue;
-        const double x = block + (bay + 0.5) * kBayWidth + random.uniform(-0.15, 0.15);
-        const double heading = random.chance(0.5) ? 90.0 : -90.0;
-        const double yaw = heading + random.uniform(-3.0, 3.0);
-        add_car(mesh, place(x, row + random.uniform(-0.25, 0.25), 0.0, yaw), random);
-      }
-    }
-  }
-}
-
-void add_columns(Mesh& mesh) {
-  for (const double block : kBayBlocks) {
-    for (int bay = 0; bay <= kBaysInBlock; bay += 2) {
-      const double x = block + bay * kBayWidth;
-      for (const double y : {16.7, 33.3})
-        add_box(mesh, place(x, y), {0.4, 0.4, kCeiling}, kConcrete);
-      for (const double y : {5.0, 45.0}) add_cylinder(mesh, place(x, y), 0.16, kCeiling, kConcrete);
-      for (const double y : {16.7, 33.3})  // painted edge guards
-        add_box(mesh, place(x, y), {0.44, 0.44, 1.0}, kPaint);
-    }
-  }
-}
-
-void add_fittings(Mesh& mesh, Random& random) {
-  for (const double aisle : kAisles) {
-    for (const auto& [offset, radius] : {std::pair(-2.2, 0.08), std::pair(1.9, 0.05)}) {
-      Pose pipe = place(0.0, aisle + offset, 2.3);
-      pipe.rotate(Eigen::AngleAxisd(0.5 * std::numbers::pi, Vector3d::UnitY()));
-      add_cylinder(mesh, pipe, radius, kLength, kSteel);
-    }
-    for (double x = 6.0; x < kLength; x += 6.0)  // lamps
-      add_box(mesh, place(x + random.uniform(-0.5, 0.5), aisle, kCeiling - 0.2), {1.5, 0.15, 0.1},
-              kPaint);
-  }
-  // Bollards at the corners of the rows; ticket pillars and signs beside the cross aisles.
-  for (const double cross : kCrossAisles) {
-    for (const double y : {12.0, 21.4, 28.6, 38.0}) {
-      add_cylinder(mesh, place(cross - 3.0, y), 0.08, 1.0, kPaint);
-      if (random.chance(0.5)) add_box(mesh, place(cross + 3.1, y), {0.35, 0.3, 1.4}, kSteel);
-      add_box(mesh, place(cross + random.uniform(-1.0, 1.0), y, 2.1), {1.0, 0.08, 0.3}, kPaint);
-    }
-  }
-}
-
-Mesh make_mesh(std::uint64_t seed) {
+Mesh parking2_mesh(std::uint64_t seed) {
   Mesh mesh;
-  Random random(seed);
-  add_floor_and_ceiling(mesh);
-  add_ramp(mesh);
-  add_walls(mesh, random);
-  add_parked_cars(mesh, random);
-  add_columns(mesh);
-  add_fittings(mesh, random);
+  for (const std::uint64_t storey : {0, 1}) {
+    Random building(seed), cars(hash(seed, 2, storey));
+    Mesh part;
+    add_storey(part, parking2_plan(), building, cars);
+    add_mesh(mesh, part, {0.0, 0.0, -kStoreyHeight * static_cast<double>(storey)});
+  }
+  for (const Ramp& ramp : {kDown, kUp}) {
+    add_ramp(mesh, ramp, kCeiling);
+    const double side = ramp.y + 0.5 * Ramp::kWidth;
+    add_passage(mesh, kWest, 0.0, side, ramp.z_begin, kCeiling);
+    add_passage(mesh, kEast, 0.0, side, ramp.z_end, kCeiling);
+  }
   return mesh;
 }
 
-Drive make_drive(std::uint64_t seed) {
-  const auto [west, middle, east] = kCrossAisles;
-  const auto [south, centre, north] = kAisles;
-  const Vector2d start(18.0, centre);
-  const std::vector<Vector2d> waypoints = {start,           {east, centre},
-                                           {east, north},   {west, north},
-                                           {west, centre},  {middle, centre},
-                                           {middle, south}, {west, south},
-                                           {west, centre},  start};
-  const DriveSettings settings{
-      .speed = 1.5,
-      .acceleration = 0.4,
-      .lateral_acceleration = 0.4,
-      .wheel_base = 1.2,
-      .track_width = 0.9,
-      .shaking = {.roll_deg = 0.5, .pitch_deg = 0.5, .yaw_deg = 0.25, .z = 0.008},
-      .seed = hash(seed, 1)};
-  return Drive(Route(waypoints, 4.0), floor_height, settings);
+// The distance (m) at which the route first comes to a place that lies on it, after `from`.
+double passage(const Route& route, const Vector2d& place, double from) {
+  while ((route.at(from).position - place).norm() > 0.2) from += 0.1;
+  return from;
+}
+
+// Along the aisle, down, along the same aisle below, up. The ground changes in the passages, where
+// the halls and the ramps are level.
+Drive parking2_drive(const DriveSettings& settings) {
+  const Vector2d start(36.0, 8.4);
+  std::vector<Vector2d> waypoints = {start};
+  std::vector<Vector2d> passages;
+  for (const Ramp& ramp : {kDown, kUp}) {
+    waypoints.insert(waypoints.end(),
+                     {{kWest, 8.4}, {kWest, ramp.y}, {kEast, ramp.y}, {kEast, 8.4}});
+    passages.insert(passages.end(), {{kWest, 0.0}, {kEast, 0.0}});
+  }
+  waypoints.push_back(start);
+  const Route route(waypoints, 3.0);
+
+  const auto floor = [plan = parking2_plan()](double x, double y) {
+    return floor_height(plan, x, y);
+  };
+  const auto floor_below = [floor](double x, double y) { return floor(x, y) - kStoreyHeight; };
+  const auto way_down = [](double x, double) { return kDown.height(x); };
+  const auto way_up = [](double x, double) { return kUp.height(x); };
+  const std::vector<Ground> grounds = {floor, way_down, floor_below, way_up, floor};
+  std::vector<Stretch> stretches;
+  double distance = 0.0;
+  for (std::size_t i = 0; i < grounds.size(); ++i) {
+    if (i > 0) distance = passage(route, passages[i - 1], distance);
+    stretches.push_back({distance, grounds[i]});
+  }
+  return Drive(route, stretches, settings);
+}
+
+Mesh one_storey(const StoreyPlan& plan, std::uint64_t seed) {
+  Mesh mesh;
+  Random random(seed);
+  add_storey(mesh, plan, random, random);
+  return mesh;
+}
+
+Drive drive_on(const StoreyPlan& plan, const std::vector<Vector2d>& waypoints, double corner_radius,
+               const DriveSettings& settings) {
+  return Drive(
+      Route(waypoints, corner_radius),
+      [plan](double x, double y) { return floor_height(plan, x, y); }, settings);
+}
+
+DriveSettings vehicle(double speed, std::uint64_t seed) {
+  return {.speed = speed,
+          .acceleration = 0.4,
+          .lateral_acceleration = 0.4,
+          .wheel_base = 1.2,
+          .track_width = 0.9,
+          .shaking = {.roll_deg = 0.5, .pitch_deg = 0.5, .yaw_deg = 0.25, .z = 0.008},
+          .seed = hash(seed, 1)};
+}
+
+World world_of(Mesh mesh, Drive drive) {
+  return {.sensor = "rs16",
+          .sensor_height = kSensorHeight,
+          .mesh = std::move(mesh),
+          .motion = motion_of(std::move(drive))};
+}
+
+Pose at(double x, double y, double yaw_deg) {
+  return Eigen::Translation3d(x, y, 0.0) * Eigen::AngleAxisd(radians(yaw_deg), Vector3d::UnitZ());
 }
 
 }  // namespace
 
 World make_car_park(std::uint64_t seed) {
-  return {.sensor = "rs16",
-          .sensor_height = 0.9,
-          .mesh = make_mesh(seed),
-          .motion = motion_of(make_drive(seed))};
+  const StoreyPlan plan = parking_plan();
+  Mesh mesh = one_storey(plan, seed);
+  add_entrance(mesh, at(80.0, 25.0, 0.0));
+  const std::vector<Vector2d> waypoints = {{18.0, 25.0}, {73.0, 25.0}, {73.0, 41.6}, {7.0, 41.6},
+                                           {7.0, 25.0},  {40.0, 25.0}, {40.0, 8.4},  {7.0, 8.4},
+                                           {7.0, 25.0},  {18.0, 25.0}};
+  return world_of(std::move(mesh), drive_on(plan, waypoints, 4.0, vehicle(1.5, seed)));
+}
+
+World make_parking1(std::uint64_t seed) {
+  const StoreyPlan plan = parking1_plan();
+  Mesh mesh = one_storey(plan, seed);
+  add_entrance(mesh, at(0.0, 25.0, 180.0));
+  add_entrance(mesh, at(76.0, 8.4, 0.0));
+  const std::vector<Vector2d> waypoints = {{7.0, 28.0},  {7.0, 8.4},   {69.0, 8.4}, {69.0, 25.0},
+                                           {38.0, 25.0}, {38.0, 41.6}, {7.0, 41.6}, {7.0, 28.0}};
+  return world_of(std::move(mesh), drive_on(plan, waypoints, 3.5, vehicle(1.0, seed)));
+}
+
+World make_parking2(std::uint64_t seed) {
+  return world_of(parking2_mesh(seed), parking2_drive(vehicle(1.0, seed)));
 }
 
 }  // namespace lego_loam_sc

@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <iterator>
 #include <utility>
-
-#include "sim/random.hpp"
 
 namespace lego_loam_sc {
 namespace {
@@ -67,27 +65,19 @@ Pose pose_on_ground(const Ground& ground, const Route::Point& point, double whee
 }  // namespace
 
 Drive::Drive(Route route, Ground ground, const DriveSettings& settings)
+    : Drive(std::move(route), std::vector<Stretch>{{0.0, std::move(ground)}}, settings) {}
+
+Drive::Drive(Route route, std::vector<Stretch> stretches, const DriveSettings& settings)
     : route_(std::move(route)),
-      ground_(std::move(ground)),
+      stretches_(std::move(stretches)),
       wheel_base_(settings.wheel_base),
       track_width_(settings.track_width),
-      speeds_(speed_profile(route_, settings)) {
+      speeds_(speed_profile(route_, settings)),
+      shaking_(settings.shaking, settings.seed) {
   const double step = node_distance(route_, 1, speeds_.size());
   times_.push_back(0.0);
   for (std::size_t i = 1; i < speeds_.size(); ++i)
     times_.push_back(times_.back() + 2.0 * step / (speeds_[i - 1] + speeds_[i]));
-
-  const Shaking& s = settings.shaking;
-  const std::array<double, 4> rms = {radians(s.roll_deg), radians(s.pitch_deg), radians(s.yaw_deg),
-                                     s.z};
-  Random random(settings.seed);
-  for (std::size_t i = 0; i < shaking_.size(); ++i) {
-    for (Sine& sine : shaking_[i]) {
-      sine.amplitude = rms[i] * std::sqrt(2.0 / static_cast<double>(shaking_[i].size()));
-      sine.frequency = 2.0 * std::numbers::pi * random.uniform(0.5, 4.0);
-      sine.phase = random.uniform(0.0, 2.0 * std::numbers::pi);
-    }
-  }
 }
 
 std::int64_t Drive::duration_ns() const {
@@ -96,8 +86,14 @@ std::int64_t Drive::duration_ns() const {
 
 Pose Drive::pose(std::int64_t time_ns) const {
   const double time = std::clamp(static_cast<double>(time_ns) * 1e-9, 0.0, times_.back());
-  return pose_on_ground(ground_, route_.at(distance_at(time)), wheel_base_, track_width_) *
+  const double distance = distance_at(time);
+  return pose_on_ground(ground_at(distance), route_.at(distance), wheel_base_, track_width_) *
          shaking_at(time);
+}
+
+const Ground& Drive::ground_at(double distance) const {
+  const auto next = std::ranges::upper_bound(stretches_, distance, {}, &Stretch::start);
+  return std::prev(next)->ground;
 }
 
 // Between two nodes the acceleration is constant.
@@ -115,14 +111,7 @@ double Drive::distance_at(double time) const {
 
 Pose Drive::shaking_at(double time) const {
   const double strength = smooth_step(time / kRamp) * smooth_step((times_.back() - time) / kRamp);
-  std::array<double, 4> value{};
-  for (std::size_t i = 0; i < value.size(); ++i)
-    for (const Sine& sine : shaking_[i])
-      value[i] += strength * sine.amplitude * std::sin(sine.frequency * time + sine.phase);
-  Pose pose = Pose::Identity();
-  pose.linear() = rotation_from_rpy(value[0], value[1], value[2]);
-  pose.translation().z() = value[3];
-  return pose;
+  return shaking_.at(time, strength);
 }
 
 Motion motion_of(Drive drive) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -9,16 +8,9 @@
 #include "sim/ground.hpp"
 #include "sim/motion.hpp"
 #include "sim/route.hpp"
+#include "sim/shaking.hpp"
 
 namespace lego_loam_sc {
-
-/// Shaking of a vehicle, as root mean squares: noise between 0.5 and 4 Hz.
-struct Shaking {
-  double roll_deg = 0.0;
-  double pitch_deg = 0.0;
-  double yaw_deg = 0.0;
-  double z = 0.0;  ///< m
-};
 
 struct DriveSettings {
   double speed = 1.5;                 ///< m/s on straights
@@ -30,10 +22,18 @@ struct DriveSettings {
   std::uint64_t seed = 0;  ///< of the shaking
 };
 
+/// The ground from a place of a route on. A way that passes over itself, as on two storeys, needs
+/// several; where one takes over, both must be the same as far as the vehicle reaches.
+struct Stretch {
+  double start;  ///< m along the route, ascending, 0 for the first
+  Ground ground;
+};
+
 /// The motion of a vehicle along a route, from rest to rest: the exact truth at any time, with
 /// continuous velocities.
 class Drive {
  public:
+  Drive(Route route, std::vector<Stretch> stretches, const DriveSettings& settings);
   Drive(Route route, Ground ground, const DriveSettings& settings);
 
   std::int64_t duration_ns() const;
@@ -43,19 +43,15 @@ class Drive {
   Pose pose(std::int64_t time_ns) const;
 
  private:
-  struct Sine {
-    double amplitude, frequency, phase;  // frequency in rad/s
-  };
-  using Noise = std::array<Sine, 8>;
-
   double distance_at(double time) const;
+  const Ground& ground_at(double distance) const;
   Pose shaking_at(double time) const;
 
   Route route_;
-  Ground ground_;
+  std::vector<Stretch> stretches_;
   double wheel_base_, track_width_;
   std::vector<double> speeds_, times_;  // at equal distances along the route
-  std::array<Noise, 4> shaking_;        // roll, pitch, yaw (rad), z (m)
+  ShakingMotion shaking_;
 };
 
 Motion motion_of(Drive drive);

@@ -25,6 +25,7 @@ struct Echo {
 struct Firing {
   double azimuth_deg;      // counter-clockwise from x, in [0, 360)
   std::int32_t offset_ns;  // after the stamp
+  Vector3d forward;        // horizontal direction
 };
 
 // The columns of a sweep in the order of storage.
@@ -33,17 +34,39 @@ std::vector<Firing> firings_by_azimuth(const SensorModel& sensor) {
   for (int i = 0; i < sensor.columns; ++i) {
     const double turn = static_cast<double>(i) / sensor.columns;
     const double swept_deg = sensor.clockwise ? -360.0 * turn : 360.0 * turn;
-    firings.push_back({std::fmod(sensor.start_azimuth_deg + swept_deg + 720.0, 360.0),
-                       static_cast<std::int32_t>(std::llround(turn * sensor.period * 1e9))});
+    const double azimuth_deg = std::fmod(sensor.start_azimuth_deg + swept_deg + 720.0, 360.0);
+    firings.push_back({azimuth_deg,
+                       static_cast<std::int32_t>(std::llround(turn * sensor.period * 1e9)),
+                       {std::cos(radians(azimuth_deg)), std::sin(radians(azimuth_deg)), 0.0}});
   }
   std::ranges::sort(firings, {}, &Firing::azimuth_deg);
   return firings;
 }
 
-Vector3d direction_of(double azimuth_deg, double elevation_deg) {
-  const double azimuth = radians(azimuth_deg), elevation = radians(elevation_deg);
-  return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
-          std::sin(elevation)};
+// Cosine and sine of the elevation of each row.
+using Elevations = std::vector<Eigen::Vector2d>;
+
+Vector3d direction_of(const Firing& firing, const Eigen::Vector2d& elevation) {
+  return elevation.x() * firing.forward + elevation.y() * Vector3d::UnitZ();
+}
+
+Elevations reported_elevations(const SensorModel& sensor) {
+  Elevations result;
+  for (const double deg : sensor.elevation_deg)
+    result.emplace_back(std::cos(radians(deg)), std::sin(radians(deg)));
+  return result;
+}
+
+// Where the beams point; the sensor reports the elevations of its table.
+Elevations true_elevations(const SensorModel& sensor, const BeamErrors& errors) {
+  Elevations result;
+  for (std::size_t row = 0; row < sensor.elevation_deg.size(); ++row) {
+    const double error = errors.elevation_deg.empty() ? 0.0 : errors.elevation_deg[row];
+    const double angle =
+        radians(sensor.elevation_deg[row] + sensor.elevation_correction_deg + error);
+    result.emplace_back(std::cos(angle), std::sin(angle));
+  }
+  return result;
 }
 
 // A surface of reflectivity 0.1 hit at right angles gives a signal of 1 at half the maximum range;
@@ -55,11 +78,11 @@ double return_probability(const Hit& hit, double max_range) {
   return 1.0 - std::exp(-3.0 * signal);
 }
 
-Echo echo_of(const std::optional<Hit>& hit, const SensorModel& sensor,
+Echo echo_of(const std::optional<Hit>& hit, double range_error, const SensorModel& sensor,
              const LidarSettings& settings, Random random) {
   if (!hit) return {};
   if (settings.drop_outs && !random.chance(return_probability(*hit, sensor.max_range))) return {};
-  const double range = hit->range + settings.noise * random.gaussian();
+  const double range = hit->range + range_error + settings.noise * random.gaussian();
   if (!(range >= sensor.min_range && range <= sensor.max_range)) return {};
   return {static_cast<float>(range), static_cast<float>(hit->reflectivity * hit->cos_incidence)};
 }
@@ -75,37 +98,44 @@ Pose mounting(const SensorModel& sensor, double default_height) {
 }
 
 Scan sweep(const RayCaster& world, const SensorModel& sensor, const LidarPose& lidar_pose,
-           std::int64_t stamp_ns, const LidarSettings& settings) {
+           std::int64_t stamp_ns, const LidarSettings& settings, const Traffic& traffic) {
   const std::vector<Firing> firings = firings_by_azimuth(sensor);
   const std::size_t columns = firings.size();
   const auto rows = static_cast<std::size_t>(sensor.rows());
+  const Elevations elevations = true_elevations(sensor, settings.beam_errors);
+  const std::vector<double>& range_errors = settings.beam_errors.range;
   const std::uint64_t scan_key = hash(settings.seed, static_cast<std::uint64_t>(stamp_ns));
   // Noise may bring a point from beyond the maximum range back into it.
   const double reach = sensor.max_range + 5.0 * settings.noise;
+  const std::vector<Traffic::Neighbour> neighbours = traffic.near(
+      lidar_pose(stamp_ns).translation(), reach, stamp_ns, std::llround(sensor.period * 1e9));
 
   std::vector<Echo> echoes(rows * columns);
   tbb::parallel_for(std::size_t{0}, columns, [&](std::size_t column) {
     const Firing& firing = firings[column];
-    const Pose T_world_lidar = lidar_pose(stamp_ns + (settings.distort ? firing.offset_ns : 0));
+    const std::int64_t time_ns = stamp_ns + firing.offset_ns;
+    const Pose T_world_lidar = lidar_pose(settings.distort ? time_ns : stamp_ns);
+    std::vector<Vector3d> directions;
+    for (const Eigen::Vector2d& elevation : elevations)
+      directions.push_back(T_world_lidar.linear() * direction_of(firing, elevation));
+    std::vector<std::optional<Hit>> hits(rows);
+    world.cast(T_world_lidar.translation(), directions, reach, hits);
+    traffic.cast(neighbours, time_ns, T_world_lidar.translation(), directions, reach, hits);
     for (std::size_t row = 0; row < rows; ++row) {
-      // The beam's true elevation; the sensor reports the one of its table.
-      const double elevation_deg = sensor.elevation_deg[row] + sensor.elevation_correction_deg;
-      const Vector3d direction =
-          T_world_lidar.linear() * direction_of(firing.azimuth_deg, elevation_deg);
       const std::size_t ray = row * columns + column;
-      echoes[ray] = echo_of(world.cast(T_world_lidar.translation(), direction, reach), sensor,
+      echoes[ray] = echo_of(hits[row], range_errors.empty() ? 0.0 : range_errors[row], sensor,
                             settings, Random(hash(scan_key, ray)));
     }
   });
 
+  const Elevations reported = reported_elevations(sensor);
   Scan scan;
   scan.stamp_ns = stamp_ns;
   for (std::size_t row = rows; row-- > 0;) {
     for (std::size_t column = 0; column < columns; ++column) {
       const Echo& echo = echoes[row * columns + column];
       if (echo.range == 0.0f) continue;
-      const Vector3d direction =
-          direction_of(firings[column].azimuth_deg, sensor.elevation_deg[row]);
+      const Vector3d direction = direction_of(firings[column], reported[row]);
       scan.points.push_back((echo.range * direction).cast<float>());
       scan.intensity.push_back(echo.intensity);
       scan.ring.push_back(static_cast<std::uint16_t>(row));

@@ -7,15 +7,18 @@
 #include "core/pose.hpp"
 #include "core/scan.hpp"
 #include "core/sensor_model.hpp"
+#include "sim/beam_errors.hpp"
 #include "sim/ray_caster.hpp"
+#include "sim/traffic.hpp"
 
 namespace lego_loam_sc {
 
 struct LidarSettings {
-  bool distort = true;    ///< each column is measured from the pose at its own firing time; off:
-                          ///< all from the pose at the stamp, as after perfect motion compensation
-  double noise = 0.0;     ///< m; one sigma of the range
-  bool drop_outs = true;  ///< weak echoes get lost
+  bool distort = true;  ///< each column is measured from the pose at its own firing time; off:
+                        ///< all from the pose at the stamp, as after perfect motion compensation
+  double noise = 0.0;   ///< m; one sigma of the range
+  BeamErrors beam_errors = {};  ///< none: the beams are as the sensor model says
+  bool drop_outs = true;        ///< weak echoes get lost
   std::uint64_t seed = 0;
 };
 
@@ -31,10 +34,13 @@ Pose mounting(const SensorModel& sensor, double default_height);
 /// The points are in the LiDAR frame of their own firing time, stored as KITTI stores them: ring by
 /// ring from the top, each ring with the azimuth ascending from straight ahead; `ring` counts rows
 /// of the sensor model, from the lowest. All beams of a column fire together, the columns at equal
-/// intervals from the start azimuth. Directions without an echo are left out. `intensity` is
+/// intervals from the start azimuth; traffic moves on from column to column, in a scan without
+/// distortion too. The points lie in the directions that the model says, whatever the errors of the
+/// beams. Directions without an echo are left out. `intensity` is
 /// reflectivity times the cosine of the incidence, 0 to 1. Noise and drop-outs depend on the seed,
 /// the stamp and the beam alone, not on the number of threads.
 Scan sweep(const RayCaster& world, const SensorModel& sensor, const LidarPose& lidar_pose,
-           std::int64_t stamp_ns, const LidarSettings& settings);
+           std::int64_t stamp_ns, const LidarSettings& settings,
+           const Traffic& traffic = Traffic());
 
 }  // namespace lego_loam_sc

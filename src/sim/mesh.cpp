@@ -80,6 +80,26 @@ void add_cylinder(Mesh& mesh, const Pose& T_world_cylinder, double radius, doubl
   }
 }
 
+void add_rod(Mesh& mesh, const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius,
+             double reflectivity) {
+  const Eigen::Vector3d axis = to - from;
+  Pose pose = Pose::Identity();
+  pose.translation() = from;
+  pose.linear() =
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis).toRotationMatrix();
+  add_cylinder(mesh, pose, radius, axis.norm(), reflectivity);
+}
+
+void add_mesh(Mesh& mesh, const Mesh& part, const Eigen::Vector3d& shift) {
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (const Eigen::Vector3f& vertex : part.vertices)
+    mesh.vertices.push_back(vertex + shift.cast<float>());
+  for (const auto& [a, b, c] : part.triangles)
+    mesh.triangles.push_back({first + a, first + b, first + c});
+  mesh.reflectivity.insert(mesh.reflectivity.end(), part.reflectivity.begin(),
+                           part.reflectivity.end());
+}
+
 void add_height_field(Mesh& mesh, const Ground& ground, const Eigen::Vector2d& low,
                       const Eigen::Vector2d& high, double spacing, double offset,
                       double reflectivity) {

@@ -37,6 +37,13 @@ void add_frustum(Mesh& mesh, const Pose& T_world_solid, const Slice& bottom, con
 void add_cylinder(Mesh& mesh, const Pose& T_world_cylinder, double radius, double height,
                   double reflectivity);
 
+/// A cylinder from one point to another, as for pipes and struts.
+void add_rod(Mesh& mesh, const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius,
+             double reflectivity);
+
+/// Adds all of `part`, shifted.
+void add_mesh(Mesh& mesh, const Mesh& part, const Eigen::Vector3d& shift);
+
 /// The ground over the rectangle from `low` to `high`, raised by `offset`, in square cells of
 /// `spacing` (rounded so that they fit).
 void add_height_field(Mesh& mesh, const Ground& ground, const Eigen::Vector2d& low,

@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kRubber = 0.05, kGlass = 0.06, kSteel = 0.4, kBark = 0.25, kLeaf = 0.45,
+constexpr double kRubber = 0.05, kGlass = 0.0005, kSteel = 0.4, kBark = 0.25, kLeaf = 0.45,
                  kSign = 0.9;
 
 Pose at(const Pose& base, double x, double y, double z) {

@@ -5,20 +5,47 @@
 #include <tbb/task_arena.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstring>
 #include <stdexcept>
 #include <type_traits>
 
 namespace lego_loam_sc {
 namespace {
 
+using Eigen::Vector3d;
+
+constexpr std::size_t kPacket = 8;
+
+// Rays that Embree follows side by side.
+struct Packet {
+  Packet(const Vector3d& origin, std::span<const Vector3d> directions, double max_range) {
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+      valid[i] = -1;
+      query.ray.org_x[i] = static_cast<float>(origin.x());
+      query.ray.org_y[i] = static_cast<float>(origin.y());
+      query.ray.org_z[i] = static_cast<float>(origin.z());
+      query.ray.dir_x[i] = static_cast<float>(directions[i].x());
+      query.ray.dir_y[i] = static_cast<float>(directions[i].y());
+      query.ray.dir_z[i] = static_cast<float>(directions[i].z());
+      query.ray.tfar[i] = static_cast<float>(max_range);
+      query.ray.mask[i] = 0xffffffff;
+      query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+      query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    }
+  }
+
+  alignas(32) std::array<int, kPacket> valid{};
+  RTCRayHit8 query{};
+};
+
 template <class Element>
 void copy_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format,
                  const std::vector<Element>& elements) {
   void* buffer =
       rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(Element), elements.size());
-  if (buffer) std::memcpy(buffer, elements.data(), elements.size() * sizeof(Element));
+  if (buffer) std::ranges::copy(elements, static_cast<Element*>(buffer));
 }
 
 }  // namespace
@@ -54,38 +81,54 @@ struct RayCaster::Scene {
   Owned<RTCScene, rtcReleaseScene> scene{rtcNewScene(device.get())};
 };
 
-RayCaster::RayCaster(Mesh mesh) : mesh_(std::move(mesh)), scene_(std::make_unique<Scene>(mesh_)) {}
+RayCaster::RayCaster(const Mesh& mesh) : scene_(std::make_unique<Scene>(mesh)) {
+  surfaces_.reserve(mesh.triangles.size());
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const auto corner = [&](int k) -> Vector3d {
+      return mesh.vertices[mesh.triangles[i][k]].cast<double>();
+    };
+    const Vector3d normal = (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
+    surfaces_.push_back({normal, normal.dot(corner(0)), mesh.reflectivity[i]});
+  }
+}
 
 RayCaster::~RayCaster() = default;
+RayCaster::RayCaster(RayCaster&&) noexcept = default;
 
-std::optional<Hit> RayCaster::cast(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
-                                   double max_range) const {
-  const Eigen::Vector3f from = origin.cast<float>();
-  const Eigen::Vector3f along = direction.cast<float>();
-  RTCRayHit query{};
-  query.ray.org_x = from.x();
-  query.ray.org_y = from.y();
-  query.ray.org_z = from.z();
-  query.ray.dir_x = along.x();
-  query.ray.dir_y = along.y();
-  query.ray.dir_z = along.z();
-  query.ray.tfar = static_cast<float>(max_range);
-  query.ray.mask = 0xffffffff;
-  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(scene_->scene.get(), &query);
-  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-
-  const auto& triangle = mesh_.triangles[query.hit.primID];
-  const auto corner = [&](int i) -> Eigen::Vector3d {
-    return mesh_.vertices[triangle[i]].cast<double>();
-  };
-  const Eigen::Vector3d normal = (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
-  const double cosine = normal.dot(direction);
-  const double range = normal.dot(corner(0) - origin) / cosine;
+std::optional<Hit> RayCaster::hit_on(unsigned triangle, const Vector3d& origin,
+                                     const Vector3d& direction, float found_range) const {
+  const Surface& surface = surfaces_[triangle];
+  const double cosine = surface.normal.dot(direction);
+  const double range = (surface.offset - surface.normal.dot(origin)) / cosine;
   // Single and double precision part only where the ray runs along the surface: no echo there.
-  if (!(std::abs(range - query.ray.tfar) < 0.01)) return std::nullopt;
-  return Hit{range, std::abs(cosine), mesh_.reflectivity[query.hit.primID]};
+  if (!(std::abs(range - found_range) < 0.01)) return std::nullopt;
+  return Hit{range, std::abs(cosine), surface.reflectivity};
+}
+
+std::optional<Hit> RayCaster::cast(const Vector3d& origin, const Vector3d& direction,
+                                   double max_range) const {
+  std::optional<Hit> hit;
+  cast(origin, {&direction, 1}, max_range, {&hit, 1});
+  return hit;
+}
+
+void RayCaster::cast(const Vector3d& origin, std::span<const Vector3d> directions, double max_range,
+                     std::span<std::optional<Hit>> hits) const {
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  for (std::size_t first = 0; first < directions.size(); first += kPacket) {
+    const std::size_t count = std::min(kPacket, directions.size() - first);
+    Packet packet(origin, directions.subspan(first, count), max_range);
+    rtcIntersect8(packet.valid.data(), scene_->scene.get(), &packet.query, &arguments);
+    for (std::size_t i = 0; i < count; ++i) {
+      const RTCRayHit8& found = packet.query;
+      hits[first + i] =
+          found.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID
+              ? std::nullopt
+              : hit_on(found.hit.primID[i], origin, directions[first + i], found.ray.tfar[i]);
+    }
+  }
 }
 
 }  // namespace lego_loam_sc

@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <memory>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "sim/mesh.hpp"
 
@@ -21,17 +23,32 @@ struct Hit {
 class RayCaster {
  public:
   /// @throws std::runtime_error when Embree cannot hold the mesh.
-  explicit RayCaster(Mesh mesh);
+  explicit RayCaster(const Mesh& mesh);
   ~RayCaster();
+  RayCaster(RayCaster&&) noexcept;
 
   /// The first hit within `max_range` (m) of a ray in world coordinates, or nothing. `direction`
   /// has length 1. May be called from many threads at once.
   std::optional<Hit> cast(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                           double max_range) const;
 
+  /// The same for rays from one origin, `hits[i]` for `directions[i]`: three times as fast when
+  /// neighbouring rays are close together.
+  void cast(const Eigen::Vector3d& origin, std::span<const Eigen::Vector3d> directions,
+            double max_range, std::span<std::optional<Hit>> hits) const;
+
  private:
   struct Scene;
-  Mesh mesh_;
+  struct Surface {  // of a triangle: the points with normal * point = offset
+    Eigen::Vector3d normal;
+    double offset;
+    float reflectivity;
+  };
+
+  std::optional<Hit> hit_on(unsigned triangle, const Eigen::Vector3d& origin,
+                            const Eigen::Vector3d& direction, float found_range) const;
+
+  std::vector<Surface> surfaces_;
   std::unique_ptr<Scene> scene_;
 };
 

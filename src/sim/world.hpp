@@ -2,12 +2,15 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
+#include "core/trajectory.hpp"
 #include "sim/mesh.hpp"
 #include "sim/motion.hpp"
+#include "sim/traffic.hpp"
 
 namespace lego_loam_sc {
 
@@ -16,12 +19,32 @@ struct World {
   std::string_view sensor;  ///< preset that suits the place
   double sensor_height;     ///< m above the ground, for sensors that do not state their own
   Mesh mesh;
-  Motion motion;         ///< of the vehicle that carries the sensor
+  Motion motion;                                     ///< of the vehicle that carries the sensor
+  TrafficPlan traffic = {};                          ///< what else moves
+  std::optional<double> range_noise = std::nullopt;  ///< m, one sigma; nothing: as the sensor says
+  bool worn_sensor = false;  ///< the sensor comes with the errors of a used one
 };
 
-std::span<const std::string_view> world_names();
+/// A line of the table of worlds.
+struct WorldKind {
+  std::string_view name;
+  std::string_view description;
+  World (*make)(std::uint64_t seed) = nullptr;  ///< none: it needs a route
+  World (*make_along)(std::uint64_t seed,
+                      const Trajectory& route) = nullptr;  ///< none: has its own
+};
 
-/// Builds a world; the same seed gives the same world. Throws InputError for an unknown name.
+std::span<const WorldKind> world_kinds();
+
+/// Throws InputError for an unknown name.
+const WorldKind& world_kind(std::string_view name);
+
+/// Builds a world; the same seed gives the same world. Throws InputError for an unknown name and
+/// for a world that needs a route.
 World make_world(std::string_view name, std::uint64_t seed);
+
+/// Builds a world round a route: T_world_lidar with stamps. Throws InputError for an unknown name
+/// and for a world that has its own way.
+World make_world(std::string_view name, std::uint64_t seed, const Trajectory& route);
 
 }  // namespace lego_loam_sc

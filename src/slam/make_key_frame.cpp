@@ -37,8 +37,8 @@ std::vector<Eigen::Vector3f> deskewed_points(const RangeImage& image, const Vect
 }
 
 KeyFrame make_key_frame(const RangeImage& image, const Segmentation& segmentation,
-                        const Features& deskewed, const Vector6& twist, double travelled,
-                        double spacing) {
+                        const Features& deskewed, std::span<const Eigen::Vector3f> points,
+                        double travelled, double spacing) {
   KeyFrame key_frame;
   key_frame.reference_ns = image.reference_ns;
   key_frame.travelled = travelled;
@@ -56,7 +56,6 @@ KeyFrame make_key_frame(const RangeImage& image, const Segmentation& segmentatio
     for (const PackedPoint& p : *cloud) take(p.position());
   // Along a row most points share the voxel of the one before; a glance at the distance is cheaper
   // than a look into the table.
-  const std::vector<Eigen::Vector3f> points = deskewed_points(image, twist);
   const float near = static_cast<float>(0.25 * spacing * spacing);
   Eigen::Vector3f last = Eigen::Vector3f::Constant(std::numeric_limits<float>::max());
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -24,7 +24,7 @@ Described describe(const Scan& scan, const SensorModel& sensor, const Settings& 
     height = estimate_sensor_height(image, sensor, settings.segmentation).value_or(0.0);
   const Segmentation segmentation = segment(image, sensor, height, settings.segmentation);
   const Features features = extract_features(image, segmentation, sensor, settings.features);
-  return {make_key_frame(image, segmentation, features, Vector6::Zero(), 0.0,
+  return {make_key_frame(image, segmentation, features, image.points, 0.0,
                          settings.key_frames.point_spacing),
           make_scan_context(image.points, height, settings.loop.scan_context)};
 }

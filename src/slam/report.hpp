@@ -44,6 +44,7 @@ struct ScanReport {
   double map_rmse = 0.0;  ///< m
   int degenerate_translations = 0, degenerate_rotations = 0;
   double least_translation_strength = 0.0, least_rotation_strength = 0.0;
+  double elevation_bias_deg = 0.0;  ///< found so far, corrected from the next scan on
 
   int key_frame = -1;  ///< its number when the scan is one
   std::vector<LoopReport> loops;

@@ -54,6 +54,7 @@ struct Slam::State {
       : sensor(sensor_model),
         settings(checked(sensor_model, slam_settings)),
         arena(std::max(threads, 1)),
+        nominal_correction_deg(sensor.elevation_correction_deg),
         height(sensor.height),
         odometry(settings.odometry, sensor.range_noise),
         mapper(settings.mapping, sensor.range_noise),
@@ -73,7 +74,8 @@ struct Slam::State {
   Settings settings;
   tbb::task_arena arena;
 
-  double height;  // m, 0 = not known yet
+  double nominal_correction_deg;  // of the elevation angles, as the sensor states it
+  double height;                  // m, 0 = not known yet
   Odometry odometry;
   Mapper mapper;
   LoopCloser loop_closer;
@@ -157,11 +159,10 @@ ScanReport Slam::State::process(const Scan& scan) {
   if (first || (good && report.mapped && is_key_frame(T_map_lidar))) {
     report.key_frame = static_cast<int>(key_frames.size());
     scan_of_key_frame.push_back(report.index);
-    add_key_frame(make_key_frame(image, segmentation, features_deskewed, twist, travelled,
+    const std::vector<Eigen::Vector3f> points = deskewed_points(image, twist);
+    add_key_frame(make_key_frame(image, segmentation, features_deskewed, points, travelled,
                                  settings.key_frames.point_spacing),
-                  match,
-                  make_scan_context(deskewed_points(image, twist), height,
-                                    settings.loop.scan_context));
+                  match, make_scan_context(points, height, settings.loop.scan_context));
     close_loops(report);
     T_map_lidar = graph.poses().back();
   }
@@ -208,6 +209,8 @@ MapMatch Slam::State::refine(const Features& features, const Motion& motion, dou
       const MapMatch again = refine_from(predicted);
       if (again.matched) match = again;
     }
+    report.elevation_bias_deg = degrees(mapper.elevation_bias());
+    sensor.elevation_correction_deg = nominal_correction_deg + report.elevation_bias_deg;
     report.map_points = match.points;
     report.map_matches = match.matches;
     report.map_iterations = match.iterations;

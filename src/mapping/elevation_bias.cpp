@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mapping/elevation_bias.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace lego_loam_sc {
+namespace {
+
+// Scans share the map and its errors, so one by one they say little: this is the information, in
+// 1/rad^2, that a correction needs at first.
+const double kFirstInformation = 5.0 / std::pow(radians(0.015), 2);
+// The share of the information so far that slows further corrections. It is small since the map and
+// the past poses bend with the error and hide most of it: a correction is never the whole one.
+constexpr double kSlowing = 0.05;
+// A larger error is no worn sensor but a wrong table.
+const double kLargest = radians(1.0);
+
+}  // namespace
+
+void ElevationBias::add(std::span<const Correspondence> correspondences, const Pose& T_map_lidar,
+                        double scale, const NormalEquations<6>& solution) {
+  // The bias as seventh unknown beside the pose, from which the pose is then eliminated.
+  const Eigen::Vector3d up = T_map_lidar.linear().col(2);
+  Vector6 mixed = Vector6::Zero();
+  double information = 0.0;
+  double gradient = 0.0;
+  for (const Correspondence& c : correspondences) {
+    if (c.kind != Correspondence::Kind::plane) continue;
+    const Eigen::Vector3d rotated = T_map_lidar.linear() * c.point;
+    const double d = c.direction.dot(rotated + T_map_lidar.translation() - c.anchor);
+    const double derivative = c.direction.dot(up) * c.range_difference;
+    Vector6 row;
+    row << c.direction, rotated.cross(c.direction);
+    const double weight = c.weight * robust_weight(d, scale);
+    mixed += weight * derivative * row;
+    information += weight * derivative * derivative;
+    gradient += weight * derivative * d;
+  }
+  const Vector6 eliminated = solution.H.ldlt().solve(mixed);
+  information -= mixed.dot(eliminated);
+  gradient -= solution.g.dot(eliminated);
+  if (!(information > 0.0)) return;
+  information_ += information;
+  value_ -= gradient / (kFirstInformation + kSlowing * information_);
+  value_ = std::clamp(value_, -kLargest, kLargest);
+}
+
+}  // namespace lego_loam_sc
