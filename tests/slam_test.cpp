@@ -142,6 +142,23 @@ std::vector<Status> statuses(Slam& slam, const std::vector<Scan>& scans) {
   return result;
 }
 
+TEST(Slam, ADriveMayBeginAtSpeed) {
+  constexpr double kSpeed = 5.0;
+  const int skipped = 15;  // by then the vehicle is at speed
+  const std::vector<Scan> scans = drive(skipped + 6, kSpeed);
+  Slam slam(made_sensor(900), Settings{});
+  for (std::size_t k = skipped; k < scans.size(); ++k)
+    EXPECT_EQ(slam.process(scans[k]).status, Status::ok);
+  const Trajectory trajectory = slam.trajectory();
+  ASSERT_EQ(trajectory.size(), 6u);
+  for (int k = 1; k < 6; ++k) {
+    const Pose estimate = trajectory[0].pose.inverse() * trajectory[k].pose;
+    const Pose error = truth_between(skipped, skipped + k, kSpeed).inverse() * estimate;
+    EXPECT_LT(error.translation().norm(), 0.03) << k;
+    EXPECT_LT(degrees(rotation_angle(error)), 0.3) << k;
+  }
+}
+
 TEST(Slam, ARoundThroughTheHallStaysWithinCentimetresOfTheTruthAndClosesItsLoop) {
   constexpr double kSpeed = 5.0;
   const std::vector<Scan> scans = drive(105, kSpeed);

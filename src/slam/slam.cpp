@@ -4,6 +4,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 
 #include "features/features.hpp"
@@ -24,6 +25,8 @@ namespace {
 
 // Scans with fewer points than this are not worth matching.
 constexpr std::size_t kMinPoints = 100;
+// Times that the first two scans are processed anew when the drive begins at speed.
+constexpr int kBeginnings = 2;
 
 const Settings& checked(const SensorModel& sensor, const Settings& settings) {
   if (const auto fault = validate(sensor)) throw std::invalid_argument(*fault);
@@ -51,10 +54,10 @@ double seconds_between(std::int64_t from_ns, std::int64_t to_ns) {
 
 struct Slam::State {
   State(const SensorModel& sensor_model, const Settings& slam_settings, int threads)
-      : sensor(sensor_model),
+      : given_sensor(sensor_model),
+        sensor(sensor_model),
         settings(checked(sensor_model, slam_settings)),
         arena(std::max(threads, 1)),
-        nominal_correction_deg(sensor.elevation_correction_deg),
         height(sensor.height),
         odometry(settings.odometry, sensor.range_noise),
         mapper(settings.mapping, sensor.range_noise),
@@ -70,12 +73,12 @@ struct Slam::State {
   void close_loops(ScanReport& report);
   void rebuild_local_map();
 
-  SensorModel sensor;
+  SensorModel given_sensor;
+  SensorModel sensor;  // the same with the elevations corrected by what was found on the way
   Settings settings;
   tbb::task_arena arena;
 
-  double nominal_correction_deg;  // of the elevation angles, as the sensor states it
-  double height;                  // m, 0 = not known yet
+  double height;  // m, 0 = not known yet
   Odometry odometry;
   Mapper mapper;
   LoopCloser loop_closer;
@@ -85,6 +88,7 @@ struct Slam::State {
   std::vector<int> scan_of_key_frame;
   Trajectory live;
 
+  std::optional<Scan> first_scan;  // until its motion is known
   int scans = 0;
   std::int64_t stamp_ns = 0;        // of the last scan that was not out of order
   Placed previous;                  // the last scan that was matched
@@ -210,7 +214,8 @@ MapMatch Slam::State::refine(const Features& features, const Motion& motion, dou
       if (again.matched) match = again;
     }
     report.elevation_bias_deg = degrees(mapper.elevation_bias());
-    sensor.elevation_correction_deg = nominal_correction_deg + report.elevation_bias_deg;
+    sensor.elevation_correction_deg =
+        given_sensor.elevation_correction_deg + report.elevation_bias_deg;
     report.map_points = match.points;
     report.map_matches = match.matches;
     report.map_iterations = match.iterations;
@@ -284,7 +289,34 @@ Slam::Slam(Slam&&) noexcept = default;
 Slam& Slam::operator=(Slam&&) noexcept = default;
 
 ScanReport Slam::process(const Scan& scan) {
-  return state_->arena.execute([&] { return state_->process(scan); });
+  ScanReport report = state_->arena.execute([&] { return state_->process(scan); });
+  if (state_->live.size() == 1 && !state_->first_scan) {
+    state_->first_scan = scan;
+  } else if (state_->first_scan && report.status != Status::out_of_order) {
+    const Scan first = std::move(*state_->first_scan);
+    state_->first_scan.reset();
+    report = begin_again(first, scan, report);
+  }
+  return report;
+}
+
+// A drive may begin at speed, but only the second scan tells the motion that the first sweep is to be
+// de-skewed with. So both are processed anew, knowing it, until it is right.
+ScanReport Slam::begin_again(const Scan& first, const Scan& second, ScanReport report) {
+  for (int k = 0; k < kBeginnings; ++k) {
+    const Vector6 motion = state_->twist * state_->sensor.period;
+    if (report.status > Status::odometry_only || motion.head<3>().norm() < state_->sensor.range_noise)
+      break;
+    auto again = std::make_unique<State>(state_->given_sensor, state_->settings,
+                                         state_->arena.max_concurrency());
+    again->twist = state_->twist;
+    again->arena.execute([&] {
+      again->process(first);
+      report = again->process(second);
+    });
+    state_ = std::move(again);
+  }
+  return report;
 }
 
 const Trajectory& Slam::odometry() const { return state_->live; }

@@ -44,6 +44,8 @@ class Slam {
 
  private:
   struct State;
+  ScanReport begin_again(const Scan& first, const Scan& second, ScanReport report);
+
   std::unique_ptr<State> state_;
 };
 
