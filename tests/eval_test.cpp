@@ -99,6 +99,7 @@ TEST(Errors, StatisticsOfKnownNumbers) {
   EXPECT_DOUBLE_EQ(s.mean, 4.0);
   EXPECT_DOUBLE_EQ(s.median, 2.5);
   EXPECT_DOUBLE_EQ(s.rmse, std::sqrt(114.0 / 4.0));
+  EXPECT_DOUBLE_EQ(s.min, 1.0);
   EXPECT_DOUBLE_EQ(s.max, 10.0);
   EXPECT_DOUBLE_EQ(evaluate(Pairs(pairs.begin(), pairs.begin() + 3)).ate_unaligned.median, 2.0);
 }

@@ -45,6 +45,7 @@ Json statistics_json(const Statistics& statistics) {
   return {{"rmse", statistics.rmse},
           {"mean", statistics.mean},
           {"median", statistics.median},
+          {"min", statistics.min},
           {"max", statistics.max}};
 }
 

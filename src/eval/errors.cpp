@@ -25,6 +25,7 @@ Statistics statistics(std::vector<double> errors) {
   result.rmse = std::sqrt(result.rmse / count);
   result.median =
       errors.size() % 2 == 1 ? errors[middle] : 0.5 * (errors[middle - 1] + errors[middle]);
+  result.min = errors.front();
   result.max = errors.back();
   return result;
 }

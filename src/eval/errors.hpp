@@ -14,6 +14,7 @@ struct Statistics {
   double rmse = 0.0;
   double mean = 0.0;
   double median = 0.0;
+  double min = 0.0;
   double max = 0.0;
 };
 
