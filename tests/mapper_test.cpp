@@ -43,7 +43,7 @@ TEST(Mapper, FindsThePoseFromAGuessThatIsOffByThirtyCentimetresAndThreeDegrees) 
     for (const Pose& guess :
          {off_by(truth, 0.3 * sign, 0, 0, 3.0), off_by(truth, 0, 0.3 * sign, 0.05, -3.0),
           off_by(truth, 0.2, 0.2 * sign, -0.05, 2.0)}) {
-      const MapMatch match = mapper.refine(features, {guess, Pose::Identity(), 0.1});
+      const MapMatch match = mapper.refine(features, {guess, guess, Pose::Identity(), 0.1});
       ASSERT_TRUE(match.matched);
       const Pose error = truth.inverse() * match.T_map_lidar;
       EXPECT_LT(error.translation().norm(), 0.02);
@@ -59,7 +59,7 @@ TEST(Mapper, TheCovarianceIsPositiveDefiniteAndSpeaksOfCentimetresAtMost) {
   Mapper mapper = mapped(hall(), kMadeHeight);
   const Pose truth = pose_of(-1.2, 4.3, kMadeHeight, 12.0);
   const MapMatch match =
-      mapper.refine(features_at(hall(), truth, 51, kMadeHeight), {truth, Pose::Identity(), 0.1});
+      mapper.refine(features_at(hall(), truth, 51, kMadeHeight), {truth, truth, Pose::Identity(), 0.1});
   ASSERT_TRUE(match.matched);
   EXPECT_LT((match.covariance - match.covariance.transpose()).norm(), 1e-12);
   const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(match.covariance);
@@ -79,7 +79,7 @@ TEST(Mapper, DeskewsASweepWithTheMotionSinceThePreviousScan) {
   const Features features = through_stages(sweep, sensor, kMadeHeight).features;
   const Pose truth = start * exp_se3(0.05 * twist);
   const Pose motion = exp_se3(0.1 * twist);
-  const MapMatch match = mapper.refine(features, {off_by(truth, 0.1, 0.05, 0, 1.0), motion, 0.1});
+  const MapMatch match = mapper.refine(features, {off_by(truth, 0.1, 0.05, 0, 1.0), off_by(truth, 0.1, 0.05, 0, 1.0), motion, 0.1});
   ASSERT_TRUE(match.matched);
   const Pose error = truth.inverse() * match.T_map_lidar;
   EXPECT_LT(error.translation().norm(), 0.03);
@@ -90,19 +90,19 @@ TEST(Mapper, DoesNotMatchWhenTheMapIsElsewhere) {
   Mapper mapper = mapped(hall(), kMadeHeight);
   const Features features = features_at(hall(), pose_of(0, 4, kMadeHeight), 52, kMadeHeight);
   const Pose guess = pose_of(300, -200, kMadeHeight, 30.0);
-  const MapMatch match = mapper.refine(features, {guess, Pose::Identity(), 0.1});
+  const MapMatch match = mapper.refine(features, {guess, guess, Pose::Identity(), 0.1});
   EXPECT_FALSE(match.matched);
   EXPECT_EQ(match.T_map_lidar.matrix(), guess.matrix());
 }
 
 TEST(Mapper, DoesNotMatchNothing) {
   Mapper mapper = mapped(hall(), kMadeHeight);
-  EXPECT_FALSE(mapper.refine({}, {Pose::Identity(), Pose::Identity(), 0.1}).matched);
+  EXPECT_FALSE(mapper.refine({}, {Pose::Identity(), Pose::Identity(), Pose::Identity(), 0.1}).matched);
   mapper.clear();
   EXPECT_TRUE(mapper.empty());
   const Features features = features_at(hall(), pose_of(0, 4, kMadeHeight), 53, kMadeHeight);
   EXPECT_FALSE(
-      mapper.refine(features, {pose_of(0, 4, kMadeHeight), Pose::Identity(), 0.1}).matched);
+      mapper.refine(features, {pose_of(0, 4, kMadeHeight), pose_of(0, 4, kMadeHeight), Pose::Identity(), 0.1}).matched);
 }
 
 TEST(Mapper, ATunnelWithoutEndKeepsTheGuessAlongItsAxis) {
@@ -115,7 +115,7 @@ TEST(Mapper, ATunnelWithoutEndKeepsTheGuessAlongItsAxis) {
   const Pose truth = pose_of(2.0, 0.1, kHeight, 1.0);
   const Pose guess = pose_of(2.4, 0.0, kHeight, 0.0);
   const MapMatch match =
-      mapper.refine(features_at(corridor(), truth, 54, kHeight), {guess, Pose::Identity(), 0.1});
+      mapper.refine(features_at(corridor(), truth, 54, kHeight), {guess, guess, Pose::Identity(), 0.1});
   ASSERT_TRUE(match.matched);
   ASSERT_EQ(match.localizability.degenerate_translations, 1);
   EXPECT_GT(std::abs(match.localizability.translation_axes(0, 0)), 0.99);
@@ -132,11 +132,11 @@ TEST(Mapper, ForgetsWhatItHasLeftBehind) {
   Mapper mapper = mapped(hall(), kMadeHeight, settings);
   const Pose here = pose_of(-2.0, 4.0, kMadeHeight);
   const Features features = features_at(hall(), here, 55, kMadeHeight);
-  EXPECT_TRUE(mapper.refine(features, {here, Pose::Identity(), 0.1}).matched);
+  EXPECT_TRUE(mapper.refine(features, {here, here, Pose::Identity(), 0.1}).matched);
   const Pose far = pose_of(300, 0, kMadeHeight);
   mapper.insert(features, far);
-  EXPECT_FALSE(mapper.refine(features, {here, Pose::Identity(), 0.1}).matched);
-  EXPECT_TRUE(mapper.refine(features, {far, Pose::Identity(), 0.1}).matched);
+  EXPECT_FALSE(mapper.refine(features, {here, here, Pose::Identity(), 0.1}).matched);
+  EXPECT_TRUE(mapper.refine(features, {far, far, Pose::Identity(), 0.1}).matched);
 }
 
 }  // namespace

@@ -54,8 +54,8 @@ struct VerifierSettings {
   double max_height_difference = 2.0;
   double max_tilt_deg = 8.0;
   double consistency_sigmas = 4.0;
-  double drift_per_metre = 0.02;
-  double drift_deg_per_metre = 0.05;
+  double drift_per_metre = 0.005;
+  double drift_deg_per_metre = 0.01;
 
   template <class Self, class Visit>
   static void fields(Self& s, Visit&& visit) {

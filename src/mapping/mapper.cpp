@@ -18,6 +18,8 @@ constexpr double kMinScale = 0.02;
 constexpr double kMaxScale = 0.5;
 // A degenerate direction is tied to the guess with this sigma, m or rad.
 constexpr double kTied = 1e-4;
+// Constraints below which a direction is not weakly held but not at all.
+constexpr double kNothing = 1.0;
 // Times that the spacing of the points is halved in small spaces.
 constexpr int kHalvings = 2;
 // The map is searched for voxels out of reach after this share of its radius has been driven.
@@ -55,6 +57,23 @@ class Prior {
   Pose guess_;
   Matrix6 information_ = Matrix6::Zero();
 };
+
+// Where the map shows nothing at all the odometry has matched noise with noise, which stands still: there
+// the last motion goes on instead.
+Pose predicted_where_nothing_holds(const ScanGuess& guess, const Localizability& l) {
+  Vector6 delta;
+  delta << guess.T_map_predicted.translation() - guess.T_map_lidar.translation(),
+      log_so3(guess.T_map_predicted.linear() * guess.T_map_lidar.linear().transpose());
+  Vector6 change = Vector6::Zero();
+  for (int i = 0; i < 3; ++i) {
+    if (l.translation[i] < kNothing)
+      change.head<3>() +=
+          l.translation_axes.col(i) * l.translation_axes.col(i).dot(delta.head<3>());
+    if (l.rotation[i] < kNothing)
+      change.tail<3>() += l.rotation_axes.col(i) * l.rotation_axes.col(i).dot(delta.tail<3>());
+  }
+  return perturb(guess.T_map_lidar, change);
+}
 
 std::vector<FeaturePoint> thin_out(const std::vector<FeaturePoint>& points, double spacing) {
   return voxel_filter(points, spacing, [](const FeaturePoint& p) { return p.position; });
@@ -116,6 +135,8 @@ MapMatch Mapper::refine(const Features& features, const ScanGuess& guess) {
     scale = robust_scale(correspondences, pose, kKernelSigmas, kMinScale, kMaxScale);
     if (k == 0) {
       match.localizability = localizability(correspondences, pose, scale, settings_.min_strength);
+      pose = predicted_where_nothing_holds(guess, match.localizability);
+      prior = Prior(pose, settings_.prior_translation, prior_rotation);
       prior.tie(match.localizability);
     }
     const auto result = levenberg_marquardt<6>(

@@ -24,7 +24,8 @@ struct MapMatch {
 
 /// What is known of a scan's pose before it is matched.
 struct ScanGuess {
-  Pose T_map_lidar = Pose::Identity();         ///< at the scan's reference time
+  Pose T_map_lidar = Pose::Identity();         ///< at the scan's reference time, by the odometry
+  Pose T_map_predicted = Pose::Identity();     ///< the same if the last motion goes on
   Pose T_previous_current = Pose::Identity();  ///< motion since the previous scan
   double seconds = 0.1;                        ///< of that motion
 };

@@ -198,8 +198,8 @@ MapMatch Slam::State::refine(const Features& features, const Motion& motion, dou
                              ScanReport& report) {
   const Pose predicted = exp_se3(twist * seconds);
   const auto refine_from = [&](const Pose& T_previous_current) {
-    return mapper.refine(
-        features, {previous.T_map_lidar * T_previous_current, T_previous_current, seconds});
+    return mapper.refine(features, {previous.T_map_lidar * T_previous_current,
+                                    previous.T_map_lidar * predicted, T_previous_current, seconds});
   };
   MapMatch match;
   match.T_map_lidar = previous.T_map_lidar * motion.T_previous_current;
