@@ -38,14 +38,15 @@ class Draw {
     c.kind = kind;
     c.point = vector(30.0);
     c.anchor = T_target_source * c.point + vector(off);
-    c.direction = unit();
+    c.direction = kind == Kind::point ? Vector3d(0, 0, 0) : unit();
+    c.age = uniform(-0.05, 0.05);
     c.weight = uniform(0.5, 50.0);
     return c;
   }
   std::vector<Correspondence> some(const Pose& T_target_source, double off) {
     std::vector<Correspondence> all;
     for (int i = 0; i < 12; ++i)
-      all.push_back(correspondence(i % 2 ? Kind::plane : Kind::line, T_target_source, off));
+      all.push_back(correspondence(static_cast<Kind>(i % 3), T_target_source, off));
     return all;
   }
 
@@ -95,11 +96,11 @@ TEST(Correspondence, TheHessianOfPointsOnTheirSurfacesIsTheSecondDerivativeOfThe
   for (int trial = 0; trial < 20; ++trial) {
     const Pose pose = draw.pose();
     const auto all = draw.some(pose, 0.0);
-    const Matrix6 H = normal_equations(all, pose, 0.5).H;
+    const Matrix6 H = normal_equations(all, pose, 5.0).H;
     for (int i = 0; i < 6; ++i) {
       const Vector6 step = kStep * Vector6::Unit(i);
-      const Vector6 column = (normal_equations(all, perturb(pose, step), 0.5).g -
-                              normal_equations(all, perturb(pose, -step), 0.5).g) /
+      const Vector6 column = (normal_equations(all, perturb(pose, step), 5.0).g -
+                              normal_equations(all, perturb(pose, -step), 5.0).g) /
                              (2.0 * kStep);
       EXPECT_LT((H.col(i) - column).norm(), 1e-3 * H.norm());
     }
@@ -112,9 +113,9 @@ TEST(Correspondence, TheHessianIsTheWeightedSumOfSquaredNumericJacobians) {
   constexpr double kScale = 0.3;
   for (int trial = 0; trial < 50; ++trial) {
     const Pose pose = draw.pose();
-    for (const Kind kind : {Kind::plane, Kind::line}) {
+    for (const Kind kind : {Kind::plane, Kind::line, Kind::point}) {
       const Correspondence c = draw.correspondence(kind, pose, 0.4);
-      // The residual of a line as a vector: the part of the offset across the line.
+      // The residual of a line as a vector: the part of the offset across the line; of a point all of it.
       const auto residual = [&](const Pose& at) -> Vector3d {
         const Vector3d offset = at * c.point - c.anchor;
         const Vector3d along = c.direction.dot(offset) * c.direction;
@@ -125,11 +126,50 @@ TEST(Correspondence, TheHessianIsTheWeightedSumOfSquaredNumericJacobians) {
         const Vector6 step = kStep * Vector6::Unit(i);
         J.col(i) = (residual(perturb(pose, step)) - residual(perturb(pose, -step))) / (2.0 * kStep);
       }
-      const double ratio = residual(pose).norm() / kScale;
+      const double ratio = residual(pose).norm() * std::sqrt(c.weight) / kScale;
       const Matrix6 expected = c.weight / (1.0 + ratio * ratio) * J.transpose() * J;
       const Matrix6 H = normal_equations(std::vector{c}, pose, kScale).H;
       EXPECT_LT((H - expected).norm(), 1e-6 * (1.0 + expected.norm()));
     }
+  }
+}
+
+TEST(Correspondence, TheGradientOfASweepIsThatOfItsCostByPoseAndVelocity) {
+  Draw draw;
+  constexpr double kStep = 1e-6;
+  constexpr double kScale = 0.5;
+  using Vector12 = Eigen::Matrix<double, 12, 1>;
+  for (int trial = 0; trial < 50; ++trial) {
+    const Pose pose = draw.pose();
+    const auto all = draw.some(pose, 0.3);
+    const auto at = [&](const Vector12& delta) {
+      return sweep_normal_equations(all, perturb(pose, delta.head<6>()), delta.tail<6>(), kScale);
+    };
+    Vector12 numeric;
+    for (int i = 0; i < 12; ++i) {
+      const Vector12 step = kStep * Vector12::Unit(i);
+      numeric[i] = (at(step).cost - at(-step).cost) / (2.0 * kStep);
+    }
+    const Vector12 g = at(Vector12::Zero()).g;
+    EXPECT_LT((g - numeric).norm(), 1e-5 * (1.0 + g.norm()));
+  }
+}
+
+TEST(Correspondence, TheSweepOfPointsOnTheirSurfacesHasTheSecondDerivativeOfItsCost) {
+  Draw draw;
+  constexpr double kStep = 1e-4;
+  using Vector12 = Eigen::Matrix<double, 12, 1>;
+  const Pose pose = draw.pose();
+  const auto all = draw.some(pose, 0.0);
+  const auto at = [&](const Vector12& delta) {
+    return sweep_normal_equations(all, perturb(pose, delta.head<6>()), delta.tail<6>(), 5.0);
+  };
+  const auto H = at(Vector12::Zero()).H;
+  EXPECT_LT((H.topLeftCorner<6, 6>() - normal_equations(all, pose, 5.0).H).norm(), 1e-9 * H.norm());
+  for (int i = 0; i < 12; ++i) {
+    const Vector12 step = kStep * Vector12::Unit(i);
+    const Vector12 column = (at(step).g - at(-step).g) / (2.0 * kStep);
+    EXPECT_LT((H.col(i) - column).norm(), 1e-3 * H.norm());
   }
 }
 

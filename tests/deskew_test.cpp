@@ -55,18 +55,18 @@ FeaturePoint point_of_age(const Vector3f& position, float age) {
 TEST(Deskew, PointsWithoutTimesStayWhereTheyAre) {
   const std::vector<FeaturePoint> points{point_of_age({1, 2, 3}, 0.0f)};
   EXPECT_EQ(deskew(points, Vector6::Constant(3.0))[0].position, points[0].position);
-  EXPECT_TRUE(deskew({}, Vector6::Constant(3.0)).empty());
+  EXPECT_TRUE(deskew(std::vector<FeaturePoint>{}, Vector6::Constant(3.0)).empty());
 }
 
-TEST(Deskew, ADeskewedPointHasNoAgeAndKeepsTheRest) {
+TEST(Deskew, ADeskewedPointHasMovedAndKeepsTheRest) {
   const std::vector<FeaturePoint> points{point_of_age({1, 2, 3}, 0.02f),
                                          point_of_age({4, 5, 6}, -0.03f)};
   EXPECT_FLOAT_EQ(age_span(points), 0.03f);
   const std::vector<FeaturePoint> moved = deskew(points, 2.0 * Vector6::Unit(0));
   EXPECT_NEAR(moved[0].position.x(), 1.04, 1e-5);
   EXPECT_NEAR(moved[1].position.x(), 3.94, 1e-5);
+  EXPECT_EQ(moved[0].age, 0.02f);
   for (const FeaturePoint& p : moved) {
-    EXPECT_EQ(p.age, 0.0f);
     EXPECT_EQ(p.intensity, 7.0f);
     EXPECT_EQ(p.row, 3);
   }

@@ -279,6 +279,26 @@ TEST(Features, ABorderThatIsHiddenByANearerObjectIsNoEdge) {
   }
 }
 
+TEST(Features, WhereEdgesAreScarceAllThatStandsOnTheGroundIsScattered) {
+  Scene field;
+  field.plane({0, 0, 0}, Eigen::Vector3d::UnitZ());
+  for (int k = 0; k < 8; ++k)
+    field.pole(12.0 * std::cos(0.8 * k), 12.0 * std::sin(0.8 * k), 0.15, 0, 6);
+  const SensorModel sensor = made_sensor(900);
+  const auto in = [&](const Scene& scene) {
+    return through_stages(take_scan(scene, sensor, pose_of(0, 0, kMadeHeight), {.noise = 0.01}),
+                          sensor, kMadeHeight)
+        .features;
+  };
+  const Features features = in(field);
+  EXPECT_GT(features.scattered.size(), 40u);
+  for (const FeaturePoint& p : features.scattered) {
+    EXPECT_NEAR(p.position.head<2>().norm(), 12.0, 0.3);
+    EXPECT_NE(p.label, Label::ground);
+  }
+  EXPECT_TRUE(in(street()).scattered.empty());
+}
+
 TEST(Features, NothingHasNoFeatures) {
   const Features f = through_stages({}, made_sensor(), 0.0).features;
   EXPECT_TRUE(f.edges_large.empty() && f.planars_large.empty());

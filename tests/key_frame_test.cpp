@@ -41,7 +41,9 @@ TEST(KeyFrame, IntensityIsKeptToAThousandth) {
 
 TEST(KeyFrame, UnpackedPointsAreTheSamePointsInTheirOrder) {
   const std::vector<PackedPoint> points{pack({1, 2, 3}, 1), pack({-4, 5, -6}, 2)};
-  const std::vector<FeaturePoint> features = unpack(points);
+  KeyFrame key_frame;
+  key_frame.edges = points;
+  const std::vector<FeaturePoint> features = unpack(key_frame).edges_large;
   ASSERT_EQ(features.size(), 2u);
   for (int i = 0; i < 2; ++i) {
     EXPECT_EQ(features[i].position, points[i].position());

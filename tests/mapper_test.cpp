@@ -86,6 +86,36 @@ TEST(Mapper, DeskewsASweepWithTheMotionSinceThePreviousScan) {
   EXPECT_LT(degrees(rotation_angle(error)), 0.2);
 }
 
+TEST(Mapper, FindsTheVelocityOfASweepThatTheMotionBeforeDidNotHave) {
+  Mapper mapper = mapped(hall(), kMadeHeight);
+  Vector6 twist;
+  twist << 1.2, 0.0, 0.0, 0.0, 0.1, 0.2;
+  const Pose start = pose_of(-2.0, 4.0, kMadeHeight, 5.0);
+  const Scan sweep = take_sweep(hall(), made_sensor(900),
+                                [&](double seconds) { return start * exp_se3(twist * seconds); },
+                                {.noise = kNoise, .seed = 10});
+  const Features features = through_stages(sweep, made_sensor(900), kMadeHeight).features;
+  const Pose truth = start * exp_se3(0.05 * twist);
+  const Pose half = exp_se3(0.05 * twist);  // it was half as fast before
+  const MapMatch match = mapper.refine(features, {truth, truth, half, 0.1});
+  ASSERT_TRUE(match.matched);
+  EXPECT_LT((match.twist - twist).head<3>().norm(), 0.15);
+  EXPECT_LT((match.twist - twist).tail<3>().norm(), radians(1.0));
+}
+
+TEST(Mapper, StandingStillAddsNothing) {
+  Mapper mapper({}, kNoise);
+  const Pose at = pose_of(0, 4, kMadeHeight), near = pose_of(0.02, 4, kMadeHeight);
+  const Features features = features_at(hall(), at, 60, kMadeHeight);
+  mapper.insert(features, at);
+  const MapMatch once = mapper.refine(features, {at, at, Pose::Identity(), 0.1});
+  for (int k = 0; k < 5; ++k) mapper.insert(features, near);
+  EXPECT_EQ(mapper.refine(features, {at, at, Pose::Identity(), 0.1}).rmse, once.rmse);
+  mapper.clear();
+  mapper.insert(features, near);
+  EXPECT_FALSE(mapper.empty());
+}
+
 TEST(Mapper, DoesNotMatchWhenTheMapIsElsewhere) {
   Mapper mapper = mapped(hall(), kMadeHeight);
   const Features features = features_at(hall(), pose_of(0, 4, kMadeHeight), 52, kMadeHeight);

@@ -210,7 +210,9 @@ TEST(Odometry, OneJointSolveFindsTheMotionToo) {
 TEST(Odometry, ACorridorWithoutEndKeepsTheGuessAlongItsAxis) {
   // So little noise that no point of a wall passes for an edge.
   constexpr double kHeight = 1.2, kLittle = 0.002;
-  Odometry odometry({}, kNoise);
+  OdometrySettings settings;
+  settings.min_edges = 10;
+  Odometry odometry(settings, kNoise);
   odometry.set_previous(features_at(corridor(), pose_of(0, 0, kHeight), 1, kHeight, kLittle));
   const Pose truth = motion_of(0.7, 0.1, 0, 0, 0, 1.0);
   const Pose guess = motion_of(0.9, 0, 0, 0, 0, 0);

@@ -50,6 +50,7 @@ struct FeatureSettings {
   int planars_large = 0;
   bool flat_from_ground_only = true;
   int min_ground_flats = 100;
+  int min_edges = 100;
   double planar_spacing = 0.2;
   int suppressed_neighbours = 5;
   int max_column_gap = 10;
@@ -71,6 +72,8 @@ struct FeatureSettings {
     visit("flat_from_ground_only", s.flat_from_ground_only, "F_p is taken from the ground alone");
     visit("min_ground_flats", s.min_ground_flats, 0, 100000,
           "with fewer points of F_p on the ground, it is taken from everywhere after all");
+    visit("min_edges", s.min_edges, 0, 100000,
+          "with fewer edges in a scan, all that stands on the ground is matched with the map; 0 = never");
     visit("planar_spacing", s.planar_spacing, 0.0, 10.0,
           "m; distance along a row between points of the large planar set");
     visit("suppressed_neighbours", s.suppressed_neighbours, 0, 20,
@@ -91,7 +94,7 @@ struct OdometrySettings {
   double max_distance = 5.0;
   int max_row_gap = 2;
   int max_points = 400;
-  int min_edges = 10;
+  int min_edges = 50;
   int min_planars = 20;
   double min_strength = 3.0;
 
@@ -120,9 +123,10 @@ struct OdometrySettings {
 /// Paper 2.3 (4).
 struct MappingSettings {
   int every = 1;
-  double voxel_size = 0.5;
-  int levels = 2;
+  double voxel_size = 0.25;
+  int levels = 3;
   double radius = 100.0;
+  double insert_distance = 0.1;
   double match_spacing = 1.0;
   int match_points = 1000;
   int associations = 5;
@@ -131,6 +135,8 @@ struct MappingSettings {
   double planarity = 0.1;
   double prior_translation = 0.2;
   double prior_rotation_deg = 1.0;
+  double acceleration = 3.0;
+  double angular_acceleration_deg = 100.0;
   int min_matches = 50;
   double min_matched_share = 0.3;
   double min_strength = 3.0;
@@ -143,6 +149,8 @@ struct MappingSettings {
           "m; finest voxels of the map; a surface is fitted to each block of 2 x 2 x 2");
     visit("levels", s.levels, 1, 4, "voxel sizes, each twice the one before");
     visit("radius", s.radius, 5.0, 1000.0, "m; the local map reaches this far round the sensor");
+    visit("insert_distance", s.insert_distance, 0.0, 100.0,
+          "m travelled since the last scan that went into the map");
     visit("match_spacing", s.match_spacing, 0.0, 10.0,
           "m; voxel of the filter over the points that are matched");
     visit("match_points", s.match_points, 0, 100000,
@@ -156,6 +164,11 @@ struct MappingSettings {
     visit("prior_translation", s.prior_translation, 1e-3, 100.0,
           "m; one sigma of the odometry's guess, which holds the directions that the map does not");
     visit("prior_rotation_deg", s.prior_rotation_deg, 1e-3, 180.0, "deg; the same for rotation");
+    visit("acceleration", s.acceleration, 0.0, 1000.0,
+          "m/s^2; one sigma of what makes the velocity in a sweep differ from the motion since the "
+          "last one; 0 = nothing");
+    visit("angular_acceleration_deg", s.angular_acceleration_deg, 0.0, 10000.0,
+          "deg/s^2; the same for rotation");
     visit("min_matches", s.min_matches, 6, 100000, "fewest matched points of a good match");
     visit("min_matched_share", s.min_matched_share, 0.0, 1.0,
           "smallest share of the points that must find a surface");

@@ -143,16 +143,16 @@ void select(const RangeImage& image, const FeatureSettings& settings, FeatureRow
   if (settings.planars_large == 0) spread_planars(image, settings, row);
 }
 
+FeaturePoint feature_point(const RangeImage& image, int row, std::uint32_t k, Label label) {
+  return {image.points[k], image.age[k],    image.intensity[k], static_cast<std::uint16_t>(row),
+          image.column[k], label};
+}
+
 void append(const RangeImage& image, int row_number, const FeatureRow& row, Features& features) {
   for (int i = 0; i < row.size(); ++i) {
     if (row.pick[i] == Pick::none) continue;
     const std::uint32_t k = row.index[i];
-    const FeaturePoint point{image.points[k],
-                             image.age[k],
-                             image.intensity[k],
-                             static_cast<std::uint16_t>(row_number),
-                             row.column[i],
-                             row.label[i]};
+    const FeaturePoint point = feature_point(image, row_number, k, row.label[i]);
     switch (row.pick[i]) {
       case Pick::edge_sharp: features.edges_sharp.push_back(point); [[fallthrough]];
       case Pick::edge_large: features.edges_large.push_back(point); break;
@@ -163,9 +163,12 @@ void append(const RangeImage& image, int row_number, const FeatureRow& row, Feat
   }
 }
 
+// `smooth`: one for each point of the image.
 Features extract(const RangeImage& image, const Segmentation& segmentation,
-                 const SensorModel& sensor, const FeatureSettings& settings) {
+                 const SensorModel& sensor, const FeatureSettings& settings,
+                 std::vector<std::uint8_t>& smooth) {
   Features features;
+  smooth.assign(image.size(), 0);
   const RoughnessThreshold threshold(sensor, settings);
   FeatureRow row;
   Ranked edges, planars;
@@ -173,21 +176,45 @@ Features extract(const RangeImage& image, const Segmentation& segmentation,
     row.take(image, segmentation, number, settings, threshold);
     select(image, settings, row, edges, planars);
     append(image, number, row, features);
+    for (int i = 0; i < row.size(); ++i) smooth[row.index[i]] = row.smooth[i];
   }
   return features;
+}
+
+// All that stands on the ground but smooth surfaces, whose points tell nothing along them: the pattern
+// in which they were seen travels with the sensor.
+std::vector<FeaturePoint> scattered_points(const RangeImage& image,
+                                           const Segmentation& segmentation,
+                                           const std::vector<std::uint8_t>& smooth) {
+  std::vector<FeaturePoint> points;
+  for (int row = 0; row < image.rows; ++row)
+    for (std::uint32_t i = image.row_begin[row]; i < image.row_begin[row + 1]; ++i)
+      if (segmentation.label[i] != Label::ground && !smooth[i])
+        points.push_back(feature_point(image, row, i, segmentation.label[i]));
+  return points;
+}
+
+Features extract_edges_and_planars(const RangeImage& image, const Segmentation& segmentation,
+                                   const SensorModel& sensor, const FeatureSettings& settings,
+                                   std::vector<std::uint8_t>& smooth) {
+  Features features = extract(image, segmentation, sensor, settings, smooth);
+  if (!settings.flat_from_ground_only ||
+      static_cast<int>(features.planars_flat.size()) >= settings.min_ground_flats)
+    return features;
+  FeatureSettings from_everywhere = settings;
+  from_everywhere.flat_from_ground_only = false;
+  return extract(image, segmentation, sensor, from_everywhere, smooth);
 }
 
 }  // namespace
 
 Features extract_features(const RangeImage& image, const Segmentation& segmentation,
                           const SensorModel& sensor, const FeatureSettings& settings) {
-  Features features = extract(image, segmentation, sensor, settings);
-  if (!settings.flat_from_ground_only ||
-      static_cast<int>(features.planars_flat.size()) >= settings.min_ground_flats)
-    return features;
-  FeatureSettings from_everywhere = settings;
-  from_everywhere.flat_from_ground_only = false;
-  return extract(image, segmentation, sensor, from_everywhere);
+  std::vector<std::uint8_t> smooth;
+  Features features = extract_edges_and_planars(image, segmentation, sensor, settings, smooth);
+  if (static_cast<int>(features.edges_large.size()) < settings.min_edges)
+    features.scattered = scattered_points(image, segmentation, smooth);
+  return features;
 }
 
 }  // namespace lego_loam_sc

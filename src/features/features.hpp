@@ -24,12 +24,15 @@ struct FeaturePoint {
 
 /// The feature sets of paper 2.3 (2). The small sets hold the sharpest edges and the flattest
 /// points, F_e and F_p; the large sets, written with a double-struck F in the paper, contain them.
+/// Trees in a field are too narrow for roughness and too small for clusters: where there are few
+/// edges, all points but the ground's are kept as they are.
 /// All are in ascending order of row and column.
 struct Features {
   std::vector<FeaturePoint> edges_sharp;    ///< F_e
   std::vector<FeaturePoint> planars_flat;   ///< F_p
   std::vector<FeaturePoint> edges_large;    ///< large F_e
   std::vector<FeaturePoint> planars_large;  ///< large F_p
+  std::vector<FeaturePoint> scattered;      ///< what stands on the ground, where edges are scarce
 };
 
 /// Selects features evenly: from each row and each of its sub-images, by roughness.

@@ -15,10 +15,22 @@ PackedPoint pack(const Eigen::Vector3f& position, float intensity) {
           Eigen::half(std::clamp(intensity, -65504.0f, 65504.0f))};
 }
 
+namespace {
+
 std::vector<FeaturePoint> unpack(const std::vector<PackedPoint>& points) {
   std::vector<FeaturePoint> result(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) result[i].position = points[i].position();
   return result;
+}
+
+}  // namespace
+
+Features unpack(const KeyFrame& key_frame) {
+  Features features;
+  features.planars_large = unpack(key_frame.planars);
+  features.edges_large = unpack(key_frame.edges);
+  features.scattered = unpack(key_frame.scattered);
+  return features;
 }
 
 }  // namespace lego_loam_sc

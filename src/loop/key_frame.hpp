@@ -33,10 +33,11 @@ struct KeyFrame {
   double travelled = 0.0;             ///< m along the path since the start
   std::vector<PackedPoint> planars;   ///< of the large planar set
   std::vector<PackedPoint> edges;     ///< of the large edge set
+  std::vector<PackedPoint> scattered; ///< of the scattered points
   std::vector<PackedPoint> others;    ///< further points of ground and clusters, for the map
 };
 
-/// Points as features again, for matching.
-std::vector<FeaturePoint> unpack(const std::vector<PackedPoint>& points);
+/// The large sets and the scattered points as features again, for matching.
+Features unpack(const KeyFrame& key_frame);
 
 }  // namespace lego_loam_sc

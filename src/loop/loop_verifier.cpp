@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "mapping/local_map.hpp"
-#include "mapping/voxel_filter.hpp"
+#include "mapping/thin_out.hpp"
 #include "odometry/correspondence.hpp"
 
 namespace lego_loam_sc {
@@ -15,70 +15,54 @@ namespace {
 constexpr double kPlanarity = 0.1;
 // Reach of a correspondence, in voxels of its level.
 constexpr double kReachVoxels = 1.5;
-// The kernel's scale in robust sigmas of the residuals, and its limits in m.
-constexpr double kKernelSigmas = 2.0;
-constexpr double kMinScale = 0.03;
-constexpr double kMaxScale = 2.0;
+// The kernel's scale in robust spreads of the residuals, and its limits in their sigmas.
+constexpr double kKernelSpreads = 2.0;
+constexpr double kMinScale = 1.0;
+constexpr double kMaxScale = 80.0;
 // Whole constraints that hold each direction of a loop.
 constexpr double kMinStrength = 5.0;
 constexpr int kMinMatches = 50;
 
-struct Clouds {
-  std::vector<FeaturePoint> planars;
-  std::vector<FeaturePoint> edges;
-
-  std::size_t size() const { return planars.size() + edges.size(); }
-};
-
-void append(const std::vector<PackedPoint>& points, const Pose& T_frame_key,
+void append(const std::vector<FeaturePoint>& points, const Eigen::Isometry3f& T_frame_key,
             std::vector<FeaturePoint>& cloud) {
-  const Eigen::Isometry3f T = T_frame_key.cast<float>();
-  for (FeaturePoint point : unpack(points)) {
-    point.position = T * point.position;
+  for (FeaturePoint point : points) {
+    point.position = T_frame_key * point.position;
     cloud.push_back(point);
   }
 }
 
-Clouds merge(std::span<const PlacedKeyFrame> key_frames) {
-  Clouds clouds;
+Features merge(std::span<const PlacedKeyFrame> key_frames) {
+  Features merged;
   for (const PlacedKeyFrame& placed : key_frames) {
-    append(placed.key_frame->planars, placed.T_frame_key, clouds.planars);
-    append(placed.key_frame->edges, placed.T_frame_key, clouds.edges);
+    const Features own = unpack(*placed.key_frame);
+    const Eigen::Isometry3f T = placed.T_frame_key.cast<float>();
+    append(own.planars_large, T, merged.planars_large);
+    append(own.edges_large, T, merged.edges_large);
+    append(own.scattered, T, merged.scattered);
   }
-  return clouds;
+  return merged;
 }
 
-Clouds thin_out(const Clouds& clouds, double spacing) {
-  const auto position = [](const FeaturePoint& p) { return p.position; };
-  return {voxel_filter(clouds.planars, spacing, position),
-          voxel_filter(clouds.edges, spacing, position)};
-}
-
-std::vector<Correspondence> match(const Clouds& query, LocalMap& map, const Pose& pose,
-                                  double max_distance, double range_noise, int level) {
-  std::vector<Correspondence> correspondences;
-  map.match_planars(query.planars, pose, max_distance, range_noise, level, correspondences);
-  map.match_edges(query.edges, pose, max_distance, range_noise, level, correspondences);
-  return correspondences;
-}
-
-double overlap(const Clouds& query, LocalMap& map, const Pose& pose) {
+double overlap(const Features& query, LocalMap& map, const Pose& pose) {
   std::size_t inside = 0;
-  for (const auto* cloud : {&query.planars, &query.edges})
-    for (const FeaturePoint& p : *cloud) inside += map.occupied(pose * p.position.cast<double>());
-  return query.size() > 0 ? static_cast<double>(inside) / static_cast<double>(query.size()) : 0.0;
+  std::size_t all = 0;
+  for (const auto* points : {&query.planars_large, &query.edges_large, &query.scattered}) {
+    all += points->size();
+    for (const FeaturePoint& p : *points) inside += map.occupied(pose * p.position.cast<double>());
+  }
+  return all > 0 ? static_cast<double>(inside) / static_cast<double>(all) : 0.0;
 }
 
 // Iterated closest point, point to plane and point to line, on one voxel level after the other.
-Pose register_coarse_to_fine(const Clouds& query, LocalMap& map, Pose pose, double range_noise,
+Pose register_coarse_to_fine(const Features& query, LocalMap& map, Pose pose, double range_noise,
                              const VerifierSettings& settings) {
   for (int level = settings.levels - 1; level >= 0; --level) {
     const double reach = kReachVoxels * settings.voxel_size * (1 << level);
     for (int k = 0; k < settings.iterations; ++k) {
-      const auto correspondences = match(query, map, pose, reach, range_noise, level);
+      const auto correspondences = map.match(query, pose, reach, range_noise, level);
       if (static_cast<int>(correspondences.size()) < kMinMatches) break;
       const double scale =
-          robust_scale(correspondences, pose, kKernelSigmas, kMinScale, kMaxScale);
+          robust_scale(correspondences, pose, kKernelSpreads, kMinScale, kMaxScale);
       const auto result = levenberg_marquardt<6>(
           pose, 2,
           [&](const Pose& at) { return normal_equations(correspondences, at, scale); }, perturb);
@@ -95,16 +79,16 @@ bool is_plausible(const Pose& T_match_query, const VerifierSettings& settings) {
          tilt <= radians(settings.max_tilt_deg);
 }
 
-LoopVerification judge(const Clouds& query, LocalMap& map, const Pose& pose, double range_noise,
+LoopVerification judge(const Features& query, LocalMap& map, const Pose& pose, double range_noise,
                        const VerifierSettings& settings) {
   LoopVerification result;
   result.T_match_query = pose;
   result.overlap = overlap(query, map, pose);
   const auto correspondences =
-      match(query, map, pose, kReachVoxels * settings.voxel_size, range_noise, 0);
+      map.match(query, pose, kReachVoxels * settings.voxel_size, range_noise, 0);
   if (static_cast<int>(correspondences.size()) < kMinMatches) return result;
 
-  const double scale = robust_scale(correspondences, pose, kKernelSigmas, kMinScale, kMaxScale);
+  const double scale = robust_scale(correspondences, pose, kKernelSpreads, kMinScale, kMaxScale);
   const NormalEquations<6> equations = normal_equations(correspondences, pose, scale);
   double sum = 0.0;
   for (const Correspondence& c : correspondences) {
@@ -150,10 +134,8 @@ LoopVerification verify_loop(std::span<const PlacedKeyFrame> query,
                              std::span<const Pose> guesses_T_match_query, double range_noise,
                              const VerifierSettings& settings) {
   LocalMap map(settings.voxel_size, settings.levels, kPlanarity);
-  const Clouds target = merge(match);
-  map.insert_planars(target.planars, Pose::Identity());
-  map.insert_edges(target.edges, Pose::Identity());
-  const Clouds source = thin_out(merge(query), 2.0 * settings.voxel_size);
+  map.insert(merge(match), Pose::Identity());
+  const Features source = thin_out(merge(query), 2.0 * settings.voxel_size);
 
   LoopVerification best;
   for (const Pose& guess : guesses_T_match_query) {

@@ -20,10 +20,10 @@ const double kLargest = radians(1.0);
 }  // namespace
 
 void ElevationBias::add(std::span<const Correspondence> correspondences, const Pose& T_map_lidar,
-                        double scale, const NormalEquations<6>& solution) {
-  // The bias as seventh unknown beside the pose, from which the pose is then eliminated.
+                        double scale, const NormalEquations<12>& solution) {
+  // The bias as one more unknown beside pose and velocity, which are then eliminated.
   const Eigen::Vector3d up = T_map_lidar.linear().col(2);
-  Vector6 mixed = Vector6::Zero();
+  Eigen::Matrix<double, 12, 1> mixed = Eigen::Matrix<double, 12, 1>::Zero();
   double information = 0.0;
   double gradient = 0.0;
   for (const Correspondence& c : correspondences) {
@@ -33,12 +33,13 @@ void ElevationBias::add(std::span<const Correspondence> correspondences, const P
     const double derivative = c.direction.dot(up) * c.range_difference;
     Vector6 row;
     row << c.direction, rotated.cross(c.direction);
-    const double weight = c.weight * robust_weight(d, scale);
-    mixed += weight * derivative * row;
+    const double weight = robust_weight(c, d, scale);
+    mixed.head<6>() += weight * derivative * row;
+    mixed.tail<6>() += weight * derivative * c.age * row;
     information += weight * derivative * derivative;
     gradient += weight * derivative * d;
   }
-  const Vector6 eliminated = solution.H.ldlt().solve(mixed);
+  const Eigen::Matrix<double, 12, 1> eliminated = solution.H.ldlt().solve(mixed);
   information -= mixed.dot(eliminated);
   gradient -= solution.g.dot(eliminated);
   if (!(information > 0.0)) return;

@@ -18,9 +18,9 @@ namespace lego_loam_sc {
 class ElevationBias {
  public:
   /// Takes the residuals of a scan that was matched with the map. `solution`: normal equations of
-  /// all that determined `T_map_lidar`, at that pose; `scale`: of the robust kernel, m.
+  /// all that determined the pose and the velocity of the sweep, there; `scale`: of the robust kernel, sigmas.
   void add(std::span<const Correspondence> correspondences, const Pose& T_map_lidar, double scale,
-           const NormalEquations<6>& solution);
+           const NormalEquations<12>& solution);
 
   /// rad, to be added to the elevation angle of every point on top of what was added to the points
   /// of the scans so far.

@@ -6,7 +6,7 @@
 namespace lego_loam_sc {
 namespace {
 
-void insert(std::vector<SurfaceMap>& maps, const std::vector<FeaturePoint>& points,
+void insert_into(std::vector<SurfaceMap>& maps, const std::vector<FeaturePoint>& points,
             const Pose& T_map_points) {
   std::vector<Eigen::Vector3d> moved;
   std::vector<double> ranges;
@@ -19,7 +19,15 @@ void insert(std::vector<SurfaceMap>& maps, const std::vector<FeaturePoint>& poin
   for (SurfaceMap& map : maps) map.insert(moved, ranges);
 }
 
-void match(std::vector<SurfaceMap>& maps, const std::vector<FeaturePoint>& points,
+Correspondence::Kind kind_of(const Surface& surface) {
+  switch (surface.kind) {
+    case Surface::Kind::plane: return Correspondence::Kind::plane;
+    case Surface::Kind::line: return Correspondence::Kind::line;
+    default: return Correspondence::Kind::point;
+  }
+}
+
+void match_with(std::vector<SurfaceMap>& maps, const std::vector<FeaturePoint>& points,
            const Pose& T_map_points, double max_distance, double range_noise, int first_level,
            std::vector<Correspondence>& correspondences) {
   for (const FeaturePoint& p : points) {
@@ -28,12 +36,10 @@ void match(std::vector<SurfaceMap>& maps, const std::vector<FeaturePoint>& point
     for (std::size_t level = first_level; level < maps.size(); ++level) {
       const Surface& surface = maps[level].surface_at(moved);
       if (surface.kind == Surface::Kind::none) continue;
-      const auto kind = surface.kind == Surface::Kind::plane ? Correspondence::Kind::plane
-                                                             : Correspondence::Kind::line;
       const double weight = 1.0 / (range_noise * range_noise + surface.variance);
       const double range_difference = point.head<2>().norm() - surface.range;
-      const Correspondence c{kind,   point, surface.mean, surface.direction,
-                             weight, range_difference};
+      const Correspondence c{kind_of(surface), point,           surface.mean, surface.direction,
+                             weight,           range_difference, p.age};
       if (distance(c, T_map_points) <= max_distance) correspondences.push_back(c);
       break;
     }
@@ -47,43 +53,46 @@ LocalMap::LocalMap(double voxel_size, int levels, double planarity) {
     const double size = voxel_size * (1 << level);
     planes_.emplace_back(SurfaceMapSettings{Surface::Kind::plane, size, planarity});
     lines_.emplace_back(SurfaceMapSettings{Surface::Kind::line, size, planarity});
+    scattered_.emplace_back(SurfaceMapSettings{Surface::Kind::point, size, planarity});
   }
 }
 
-void LocalMap::insert_planars(const std::vector<FeaturePoint>& points, const Pose& T_map_points) {
-  insert(planes_, points, T_map_points);
+void LocalMap::insert(const Features& features, const Pose& T_map_points) {
+  insert_into(planes_, features.planars_large, T_map_points);
+  insert_into(lines_, features.edges_large, T_map_points);
+  insert_into(scattered_, features.scattered, T_map_points);
 }
 
-void LocalMap::insert_edges(const std::vector<FeaturePoint>& points, const Pose& T_map_points) {
-  insert(lines_, points, T_map_points);
-}
-
-void LocalMap::match_planars(const std::vector<FeaturePoint>& points, const Pose& T_map_points,
-                             double max_distance, double range_noise, int first_level,
-                             std::vector<Correspondence>& correspondences) {
-  match(planes_, points, T_map_points, max_distance, range_noise, first_level, correspondences);
-}
-
-void LocalMap::match_edges(const std::vector<FeaturePoint>& points, const Pose& T_map_points,
-                           double max_distance, double range_noise, int first_level,
-                           std::vector<Correspondence>& correspondences) {
-  match(lines_, points, T_map_points, max_distance, range_noise, first_level, correspondences);
+std::vector<Correspondence> LocalMap::match(const Features& features, const Pose& T_map_points,
+                                            double max_distance, double range_noise,
+                                            int first_level) {
+  std::vector<Correspondence> correspondences;
+  match_with(planes_, features.planars_large, T_map_points, max_distance, range_noise,
+                      first_level, correspondences);
+  match_with(lines_, features.edges_large, T_map_points, max_distance, range_noise,
+                      first_level, correspondences);
+  match_with(scattered_, features.scattered, T_map_points, max_distance, range_noise,
+                      first_level, correspondences);
+  return correspondences;
 }
 
 bool LocalMap::occupied(const Eigen::Vector3d& point) {
-  return planes_.front().occupied(point) || lines_.front().occupied(point);
+  return planes_.front().occupied(point) || lines_.front().occupied(point) ||
+         scattered_.front().occupied(point);
 }
 
 void LocalMap::remove_beyond(const Eigen::Vector3d& center, double radius) {
-  for (SurfaceMap& map : planes_) map.remove_beyond(center, radius);
-  for (SurfaceMap& map : lines_) map.remove_beyond(center, radius);
+  for (auto* maps : {&planes_, &lines_, &scattered_})
+    for (SurfaceMap& map : *maps) map.remove_beyond(center, radius);
 }
 
 void LocalMap::clear() {
-  for (SurfaceMap& map : planes_) map.clear();
-  for (SurfaceMap& map : lines_) map.clear();
+  for (auto* maps : {&planes_, &lines_, &scattered_})
+    for (SurfaceMap& map : *maps) map.clear();
 }
 
-std::size_t LocalMap::size() const { return planes_.front().size() + lines_.front().size(); }
+std::size_t LocalMap::size() const {
+  return planes_.front().size() + lines_.front().size() + scattered_.front().size();
+}
 
 }  // namespace lego_loam_sc

@@ -17,19 +17,15 @@ class LocalMap {
   /// The finest voxels measure `voxel_size` (m), each of the `levels` twice the one before.
   LocalMap(double voxel_size, int levels, double planarity);
 
-  void insert_planars(const std::vector<FeaturePoint>& points, const Pose& T_map_points);
-  void insert_edges(const std::vector<FeaturePoint>& points, const Pose& T_map_points);
+  /// Adds the large sets and the scattered points.
+  void insert(const Features& features, const Pose& T_map_points);
 
-  /// Appends the correspondence of each point that finds a surface within `max_distance` (m) on
-  /// the finest level that has one, starting at `first_level` (0 = finest).
-  void match_planars(const std::vector<FeaturePoint>& points, const Pose& T_map_points,
-                     double max_distance, double range_noise, int first_level,
-                     std::vector<Correspondence>& correspondences);
-  void match_edges(const std::vector<FeaturePoint>& points, const Pose& T_map_points,
-                   double max_distance, double range_noise, int first_level,
-                   std::vector<Correspondence>& correspondences);
+  /// The correspondences of the points of these sets that find a surface within `max_distance` (m)
+  /// on the finest level that has one, starting at `first_level` (0 = finest).
+  std::vector<Correspondence> match(const Features& features, const Pose& T_map_points,
+                                    double max_distance, double range_noise, int first_level);
 
-  /// True when a planar or edge point lies in the finest voxel of `point` (map frame).
+  /// True when a point lies in the finest voxel of `point` (map frame).
   bool occupied(const Eigen::Vector3d& point);
 
   void remove_beyond(const Eigen::Vector3d& center, double radius);
@@ -39,6 +35,7 @@ class LocalMap {
  private:
   std::vector<SurfaceMap> planes_;  // finest first
   std::vector<SurfaceMap> lines_;
+  std::vector<SurfaceMap> scattered_;
 };
 
 }  // namespace lego_loam_sc

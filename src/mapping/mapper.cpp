@@ -5,17 +5,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mapping/voxel_filter.hpp"
+#include "mapping/thin_out.hpp"
 #include "odometry/correspondence.hpp"
 #include "odometry/deskew.hpp"
 
 namespace lego_loam_sc {
 namespace {
 
-// The kernel's scale in robust sigmas of the residuals, and its limits in m.
-constexpr double kKernelSigmas = 2.0;
-constexpr double kMinScale = 0.02;
-constexpr double kMaxScale = 0.5;
+// The kernel's scale in robust spreads of the residuals, and its limits in their sigmas.
+constexpr double kKernelSpreads = 2.0;
+constexpr double kMinScale = 1.0;
+constexpr double kMaxScale = 20.0;
 // A degenerate direction is tied to the guess with this sigma, m or rad.
 constexpr double kTied = 1e-4;
 // Constraints below which a direction is not weakly held but not at all.
@@ -25,10 +25,36 @@ constexpr int kHalvings = 2;
 // The map is searched for voxels out of reach after this share of its radius has been driven.
 constexpr double kEvictionShare = 0.1;
 
-// The prior: deviations from the guess cost (delta / sigma)^2 / 2.
-class Prior {
+// A sweep that is being matched: its pose, and the change of its velocity since it was de-skewed, both in
+// the map's axes at the reference time.
+struct Sweep {
+  Pose T_map_lidar;
+  Vector6 velocity_change = Vector6::Zero();
+};
+
+using Vector12 = Eigen::Matrix<double, 12, 1>;
+
+Sweep changed(const Sweep& sweep, const Vector12& delta) {
+  return {perturb(sweep.T_map_lidar, delta.head<6>()), sweep.velocity_change + delta.tail<6>()};
+}
+
+Vector6 in_axes_of_lidar(const Sweep& sweep) {
+  const Eigen::Matrix3d to_lidar = sweep.T_map_lidar.linear().transpose();
+  Vector6 change;
+  change << to_lidar * sweep.velocity_change.head<3>(), to_lidar * sweep.velocity_change.tail<3>();
+  return change;
+}
+
+// What de-skewing with a twist that differs by `change` would have done to the points, to first order.
+void move_on(std::vector<Correspondence>& correspondences, const Vector6& change) {
+  for (Correspondence& c : correspondences)
+    c.point += c.age * (change.head<3>() + change.tail<3>().cross(c.point));
+}
+
+// The pose's prior: deviations from the guess cost (delta / sigma)^2 / 2.
+class PosePrior {
  public:
-  Prior(const Pose& guess, double sigma_translation, double sigma_rotation) : guess_(guess) {
+  PosePrior(const Pose& guess, double sigma_translation, double sigma_rotation) : guess_(guess) {
     const double t = 1.0 / (sigma_translation * sigma_translation);
     const double r = 1.0 / (sigma_rotation * sigma_rotation);
     information_.diagonal() << t, t, t, r, r, r;
@@ -44,18 +70,53 @@ class Prior {
           kInformation * l.rotation_axes.col(i) * l.rotation_axes.col(i).transpose();
   }
 
-  void add_to(NormalEquations<6>& equations, const Pose& at) const {
+  void add_to(NormalEquations<12>& equations, const Pose& at) const {
     Vector6 deviation;
     deviation << at.translation() - guess_.translation(),
         log_so3(at.linear() * guess_.linear().transpose());
-    equations.H += information_;
-    equations.g += information_ * deviation;
+    equations.H.topLeftCorner<6, 6>() += information_;
+    equations.g.head<6>() += information_ * deviation;
     equations.cost += 0.5 * deviation.dot(information_ * deviation);
   }
 
  private:
   Pose guess_;
   Matrix6 information_ = Matrix6::Zero();
+};
+
+// The velocity's prior: it is that of the motion since the previous scan, but for an acceleration.
+class VelocityPrior {
+ public:
+  VelocityPrior(const Pose& T_previous_map, double seconds, double acceleration,
+                double angular_acceleration)
+      : T_previous_map_(T_previous_map), seconds_(seconds) {
+    // The mean velocity of the motion is that of half a period ago.
+    const double t = std::max(0.5 * seconds * acceleration, kTied);
+    const double r = std::max(0.5 * seconds * angular_acceleration, kTied);
+    information_ << Eigen::Vector3d::Constant(1.0 / (t * t)), Eigen::Vector3d::Constant(1.0 / (r * r));
+  }
+
+  Vector6 mean(const Pose& T_map_lidar) const {
+    return log_se3(T_previous_map_ * T_map_lidar) / seconds_;
+  }
+
+  // `twist`: that the sweep was de-skewed with.
+  void add_to(NormalEquations<12>& equations, const Sweep& at, const Vector6& twist) const {
+    const Eigen::Matrix3d to_lidar = at.T_map_lidar.linear().transpose();
+    Eigen::Matrix<double, 6, 12> J = Eigen::Matrix<double, 6, 12>::Zero();
+    J.block<3, 3>(0, 6) = J.block<3, 3>(3, 9) = to_lidar;
+    J.leftCols<6>() = J.rightCols<6>() * (-1.0 / seconds_);
+    const Vector6 e =
+        twist + J.rightCols<6>() * at.velocity_change - mean(at.T_map_lidar);
+    equations.H += J.transpose() * information_.asDiagonal() * J;
+    equations.g += J.transpose() * (information_.cwiseProduct(e));
+    equations.cost += 0.5 * e.dot(information_.cwiseProduct(e));
+  }
+
+ private:
+  Pose T_previous_map_;
+  double seconds_;
+  Vector6 information_;
 };
 
 // Where the map shows nothing at all the odometry has matched noise with noise, which stands still: there
@@ -75,17 +136,13 @@ Pose predicted_where_nothing_holds(const ScanGuess& guess, const Localizability&
   return perturb(guess.T_map_lidar, change);
 }
 
-std::vector<FeaturePoint> thin_out(const std::vector<FeaturePoint>& points, double spacing) {
-  return voxel_filter(points, spacing, [](const FeaturePoint& p) { return p.position; });
-}
-
 double weighted_rmse(const std::vector<Correspondence>& correspondences, const Pose& pose,
                      double scale) {
   double sum = 0.0;
   double weights = 0.0;
   for (const Correspondence& c : correspondences) {
     const double d = distance(c, pose);
-    const double weight = robust_weight(d, scale);
+    const double weight = robust_weight(c, d, scale) / c.weight;
     sum += weight * d * d;
     weights += weight;
   }
@@ -105,68 +162,79 @@ MapMatch Mapper::refine(const Features& features, const ScanGuess& guess) {
   const double prior_rotation = radians(settings_.prior_rotation_deg);
   match.covariance.diagonal() << Eigen::Vector3d::Constant(std::pow(settings_.prior_translation, 2)),
       Eigen::Vector3d::Constant(prior_rotation * prior_rotation);
-  std::vector<FeaturePoint> planars, edges;
+  Features points;
   double spacing = settings_.match_spacing;
   for (int k = 0; k == 0 || (k <= kHalvings && match.points < settings_.match_points);
        ++k, spacing *= 0.5) {
-    planars = thin_out(features.planars_large, spacing);
-    edges = thin_out(features.edges_large, spacing);
-    match.points = static_cast<int>(planars.size() + edges.size());
+    points = thin_out(features, spacing);
+    match.points = static_cast<int>(points.planars_large.size() + points.edges_large.size() +
+                                    points.scattered.size());
   }
 
   Pose pose = guess.T_map_lidar;
-  const Pose T_previous_map = guess.T_previous_current * guess.T_map_lidar.inverse();
-  Prior prior(pose, settings_.prior_translation, prior_rotation);
+  PosePrior prior(pose, settings_.prior_translation, prior_rotation);
+  const VelocityPrior velocity_prior(guess.T_previous_current * guess.T_map_lidar.inverse(),
+                                     guess.seconds, settings_.acceleration,
+                                     radians(settings_.angular_acceleration_deg));
+  Vector6 twist = velocity_prior.mean(pose);
   std::vector<Correspondence> correspondences;
   double scale = kMaxScale;
-  Matrix6 H = Matrix6::Identity();
   for (int k = 0; k < settings_.associations; ++k) {
-    const Vector6 twist = log_se3(T_previous_map * pose) / guess.seconds;
-    correspondences.clear();
-    map_.match_planars(deskew(planars, twist), pose, settings_.max_distance, range_noise_, 0,
-                       correspondences);
-    map_.match_edges(deskew(edges, twist), pose, settings_.max_distance, range_noise_, 0,
-                     correspondences);
+    correspondences =
+        map_.match(deskew(points, twist), pose, settings_.max_distance, range_noise_, 0);
     match.matches = static_cast<int>(correspondences.size());
     if (match.matches < settings_.min_matches ||
         match.matches < settings_.min_matched_share * match.points)
       return match;
 
-    scale = robust_scale(correspondences, pose, kKernelSigmas, kMinScale, kMaxScale);
+    scale = robust_scale(correspondences, pose, kKernelSpreads, kMinScale, kMaxScale);
     if (k == 0) {
       match.localizability = localizability(correspondences, pose, scale, settings_.min_strength);
       pose = predicted_where_nothing_holds(guess, match.localizability);
-      prior = Prior(pose, settings_.prior_translation, prior_rotation);
+      prior = PosePrior(pose, settings_.prior_translation, prior_rotation);
       prior.tie(match.localizability);
     }
-    const auto result = levenberg_marquardt<6>(
-        pose, settings_.iterations,
-        [&](const Pose& at) {
-          NormalEquations<6> equations = normal_equations(correspondences, at, scale);
-          prior.add_to(equations, at);
-          H = equations.H;
+    Sweep sweep{pose};
+    const auto result = levenberg_marquardt<12>(
+        sweep, settings_.iterations,
+        [&](const Sweep& at) {
+          NormalEquations<12> equations =
+              sweep_normal_equations(correspondences, at.T_map_lidar, at.velocity_change, scale);
+          prior.add_to(equations, at.T_map_lidar);
+          velocity_prior.add_to(equations, at, twist);
           return equations;
         },
-        perturb);
+        changed);
+    pose = sweep.T_map_lidar;
+    const Vector6 change = in_axes_of_lidar(sweep);
+    twist += change;
+    move_on(correspondences, change);
     match.iterations += result.iterations;
     if (result.step < kConvergedStep) break;
   }
-  if (settings_.elevation_bias) {
-    NormalEquations<6> solution = normal_equations(correspondences, pose, scale);
-    prior.add_to(solution, pose);
-    elevation_bias_.add(correspondences, pose, scale, solution);
-  }
+  NormalEquations<12> solution =
+      sweep_normal_equations(correspondences, pose, Vector6::Zero(), scale);
+  prior.add_to(solution, pose);
+  velocity_prior.add_to(solution, Sweep{pose}, twist);
+  if (settings_.elevation_bias) elevation_bias_.add(correspondences, pose, scale, solution);
   match.matched = true;
   match.T_map_lidar = normalized(pose);
+  match.twist = twist;
   match.rmse = weighted_rmse(correspondences, pose, scale);
-  match.covariance = H.inverse();
+  match.covariance = solution.H.inverse().topLeftCorner<6, 6>();
   return match;
 }
 
+void Mapper::clear() {
+  map_.clear();
+  last_insertion_.reset();
+}
+
 void Mapper::insert(const Features& deskewed, const Pose& T_map_lidar) {
-  map_.insert_planars(deskewed.planars_large, T_map_lidar);
-  map_.insert_edges(deskewed.edges_large, T_map_lidar);
   const Eigen::Vector3d position = T_map_lidar.translation();
+  if (last_insertion_ && (position - *last_insertion_).norm() < settings_.insert_distance) return;
+  last_insertion_ = position;
+  map_.insert(deskewed, T_map_lidar);
   if ((position - last_eviction_).norm() > kEvictionShare * settings_.radius) {
     map_.remove_beyond(position, settings_.radius);
     last_eviction_ = position;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+
 #include "core/pose.hpp"
 #include "core/settings.hpp"
 #include "features/features.hpp"
@@ -13,6 +15,7 @@ namespace lego_loam_sc {
 /// Outcome of matching one scan against the local map.
 struct MapMatch {
   Pose T_map_lidar = Pose::Identity();  ///< at the scan's reference time
+  Vector6 twist = Vector6::Zero();      ///< of the sensor at that time, m/s and rad/s in its own frame
   bool matched = false;                 ///< false: the pose is the guess
   int points = 0;                       ///< that were to be matched
   int matches = 0;                      ///< of them found a surface
@@ -36,18 +39,19 @@ class Mapper {
   /// `range_noise` in m, one sigma.
   Mapper(const MappingSettings& settings, double range_noise);
 
-  /// Matches the large feature sets with the map. The sweep is de-skewed with the motion since the
-  /// previous scan, corrected as the pose is being refined.
+  /// Matches the large feature sets with the map. The motion within the sweep is estimated with the
+  /// pose; the motion since the previous scan is what is known of it beforehand.
   MapMatch refine(const Features& features, const ScanGuess& guess);
 
   /// rad; error of the elevation angles that the scans so far have shown, see ElevationBias. 0 when
   /// it is not to be estimated.
   double elevation_bias() const { return elevation_bias_.value(); }
 
-  /// Adds features that are already de-skewed, and forgets what is out of reach.
+  /// Adds features that are already de-skewed, unless the sensor has hardly moved since the last ones: what
+  /// it sees while it stands adds nothing but the pattern of its beams. Forgets what is out of reach.
   void insert(const Features& deskewed, const Pose& T_map_lidar);
 
-  void clear() { map_.clear(); }
+  void clear();
   bool empty() const { return map_.size() == 0; }
 
  private:
@@ -55,6 +59,7 @@ class Mapper {
   double range_noise_;
   LocalMap map_;
   ElevationBias elevation_bias_;
+  std::optional<Eigen::Vector3d> last_insertion_;
   Eigen::Vector3d last_eviction_ = Eigen::Vector3d::Zero();
 };
 

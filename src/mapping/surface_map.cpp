@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 
 namespace lego_loam_sc {
@@ -13,6 +14,10 @@ namespace {
 constexpr std::uint32_t kMinPoints = 6;
 // Standard deviation along a surface, in voxels, below which its orientation is a guess.
 constexpr double kMinSpread = 0.15;
+// Standard deviation of a direction, rad, from the noise of the points that it is fitted to, above which it
+// says more about them than about the surface: a quarter of the angle at which a surface begins to count as
+// a constraint across it (localizability.cpp).
+constexpr double kMaxTilt = 0.05;
 // A kept fit is good until its points have grown by this share.
 constexpr double kGrowth = 0.1;
 
@@ -80,6 +85,20 @@ const Surface& SurfaceMap::surface_at(const Eigen::Vector3d& point) {
   return block.surface;
 }
 
+Surface::Kind SurfaceMap::kind_of(const Eigen::Vector3d& variance,
+                                   std::uint32_t count) const {
+  const double spread = std::pow(kMinSpread * settings_.voxel_size, 2);
+  const double ratio = std::min(settings_.planarity, kMaxTilt * kMaxTilt * count);
+  const bool plane = variance[1] >= spread && variance[0] <= ratio * variance[1];
+  const bool line = variance[2] >= spread && variance[1] <= ratio * variance[2];
+  switch (settings_.kind) {
+    case Surface::Kind::plane: return plane ? Surface::Kind::plane : Surface::Kind::none;
+    case Surface::Kind::line: return line ? Surface::Kind::line : Surface::Kind::none;
+    default:
+      return plane ? Surface::Kind::plane : line ? Surface::Kind::line : Surface::Kind::point;
+  }
+}
+
 Surface SurfaceMap::fit(const std::array<const Voxel*, 8>& voxels, std::uint32_t count,
                         const Eigen::Vector3d& middle) const {
   // Sums of all voxels, moved to the middle of the block.
@@ -104,19 +123,19 @@ Surface SurfaceMap::fit(const std::array<const Voxel*, 8>& voxels, std::uint32_t
   Surface surface;
   surface.mean = middle + mean;
   surface.range = range / count;
-  const double spread = kMinSpread * settings_.voxel_size;
-  if (settings_.kind == Surface::Kind::plane) {
-    if (variance[1] < spread * spread || variance[0] > settings_.planarity * variance[1])
-      return surface;
-    surface.direction = eigen.eigenvectors().col(0);
-    surface.variance = variance[0];
-  } else {
-    if (variance[2] < spread * spread || variance[1] > settings_.planarity * variance[2])
-      return surface;
-    surface.direction = eigen.eigenvectors().col(2);
-    surface.variance = variance[1];
+  surface.kind = kind_of(variance, count);
+  switch (surface.kind) {
+    case Surface::Kind::plane:
+      surface.direction = eigen.eigenvectors().col(0);
+      surface.variance = variance[0];
+      break;
+    case Surface::Kind::line:
+      surface.direction = eigen.eigenvectors().col(2);
+      surface.variance = variance[1];
+      break;
+    case Surface::Kind::point: surface.variance = variance.mean(); break;
+    case Surface::Kind::none: break;
   }
-  surface.kind = settings_.kind;
   return surface;
 }
 

@@ -12,19 +12,19 @@
 
 namespace lego_loam_sc {
 
-/// The plane or line that the points round a place lie on.
+/// The plane or line that the points round a place lie on, or the place itself when they do on none.
 struct Surface {
-  enum class Kind : std::uint8_t { none, plane, line };
+  enum class Kind : std::uint8_t { none, plane, line, point };
 
   Kind kind = Kind::none;
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();       ///< map frame, m
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< unit normal, or direction of the line
-  double variance = 0.0;  ///< m^2, of the points across the surface
+  double variance = 0.0;  ///< m^2, of the points across the surface, or in each direction
   double range = 0.0;     ///< m, mean horizontal range from which its points were seen
 };
 
 struct SurfaceMapSettings {
-  Surface::Kind kind = Surface::Kind::plane;  ///< what is fitted
+  Surface::Kind kind = Surface::Kind::plane;  ///< what is fitted; point: whatever fits
   double voxel_size = 0.5;                    ///< m
   double planarity = 0.1;                     ///< largest ratio of the eigenvalues, see surface_at
 };
@@ -42,7 +42,8 @@ class SurfaceMap {
   /// ranges these are 0.
   void insert(std::span<const Eigen::Vector3d> points, std::span<const double> ranges = {});
 
-  /// The surface of the block round `point`; kind `none` where there is no clear one. A plane has
+  /// The surface of the block round `point`; kind `none` where there is no clear one
+  /// (of a map of `point`s: where there are few points). A plane has
   /// variances l1 <= l2 <= l3 along its axes with l1 <= planarity * l2, a line l2 <= planarity * l3.
   const Surface& surface_at(const Eigen::Vector3d& point);
 
@@ -72,6 +73,8 @@ class SurfaceMap {
 
   void add(const Eigen::Vector3d& point, double range, const Cell& cell);
   Eigen::Vector3d corner_of(const Cell& cell, double cells) const;
+  /// `variance`: along the axes of a block's points, ascending, m^2.
+  Surface::Kind kind_of(const Eigen::Vector3d& variance, std::uint32_t count) const;
   Surface fit(const std::array<const Voxel*, 8>& voxels, std::uint32_t count,
               const Eigen::Vector3d& middle) const;
 

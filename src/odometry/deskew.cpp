@@ -25,11 +25,14 @@ std::vector<FeaturePoint> deskew(const std::vector<FeaturePoint>& points, const 
   const float span = age_span(points);
   if (span == 0.0f) return moved;
   const SweepMotion motion(twist, span);
-  for (FeaturePoint& p : moved) {
-    p.position = motion(p.position, p.age);
-    p.age = 0.0f;
-  }
+  for (FeaturePoint& p : moved) p.position = motion(p.position, p.age);
   return moved;
+}
+
+Features deskew(const Features& features, const Vector6& twist) {
+  return {deskew(features.edges_sharp, twist), deskew(features.planars_flat, twist),
+          deskew(features.edges_large, twist), deskew(features.planars_large, twist),
+          deskew(features.scattered, twist)};
 }
 
 }  // namespace lego_loam_sc

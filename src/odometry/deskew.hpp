@@ -39,7 +39,10 @@ class SweepMotion {
 /// The largest absolute age of a set of points, s.
 float age_span(const std::vector<FeaturePoint>& points);
 
-/// The points moved to the reference time of their scan; `age` becomes 0.
+/// The points moved to the reference time of their scan; `age` still tells when they were seen.
 std::vector<FeaturePoint> deskew(const std::vector<FeaturePoint>& points, const Vector6& twist);
+
+/// The same for all sets.
+Features deskew(const Features& features, const Vector6& twist);
 
 }  // namespace lego_loam_sc

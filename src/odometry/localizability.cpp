@@ -16,7 +16,7 @@ double contribution(double squared_cosine) {
   return squared_cosine < kAcross * kAcross ? 0.0 : squared_cosine;
 }
 
-// The part of unit direction `v` that the constraint sees: along a normal, or off a line.
+// The part of unit direction `v` that the constraint sees: along a normal, off a line, all of it.
 double squared_cosine(const Correspondence& c, const Eigen::Vector3d& v) {
   const double along = c.direction.dot(v);
   return c.kind == Correspondence::Kind::plane ? along * along : 1.0 - along * along;
@@ -49,7 +49,8 @@ Localizability localizability(std::span<const Correspondence> correspondences,
   result.rotation_axes = rotation.eigenvectors();
 
   for (const Correspondence& c : correspondences) {
-    const double weight = robust_weight(distance(c, T_target_source), scale);
+    const double weight =
+        robust_weight(c, distance(c, T_target_source), scale) / c.weight;  // at most 1
     const Eigen::Vector3d arm = (T_target_source.linear() * c.point).normalized();
     for (int i = 0; i < 3; ++i) {
       result.translation[i] +=

@@ -26,8 +26,8 @@ struct Localizability {
   bool degenerate() const { return degenerate_translations + degenerate_rotations > 0; }
 };
 
-/// A direction with a strength below `min_strength` is degenerate. `scale` (m) is that of the robust
-/// kernel; rotation is about the origin of the source frame.
+/// A direction with a strength below `min_strength` is degenerate. `scale` (sigmas) is that of the
+/// robust kernel; rotation is about the origin of the source frame.
 Localizability localizability(std::span<const Correspondence> correspondences,
                               const Pose& T_target_source, double scale, double min_strength);
 

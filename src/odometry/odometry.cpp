@@ -11,10 +11,10 @@
 namespace lego_loam_sc {
 namespace {
 
-// The kernel's scale in robust sigmas of the residuals, and its limits in m.
-constexpr double kKernelSigmas = 2.0;
-constexpr double kMinScale = 0.05;
-constexpr double kMaxScale = 1.0;
+// The kernel's scale in robust spreads of the residuals, and its limits in their sigmas.
+constexpr double kKernelSpreads = 2.0;
+constexpr double kMinScale = 2.0;
+constexpr double kMaxScale = 50.0;
 
 // Correspondences are searched anew until a solve moves the pose by less: 0.5 mm or 0.5 mrad. The
 // result is a guess for the mapper, which is finer.
@@ -32,7 +32,7 @@ template <std::size_t N>
 LevenbergMarquardtResult solve(std::span<const Correspondence> correspondences,
                                const std::array<int, N>& unknowns, int max_iterations, Pose& pose) {
   const double scale =
-      robust_scale(correspondences, pose, kKernelSigmas, kMinScale, kMaxScale);
+      robust_scale(correspondences, pose, kKernelSpreads, kMinScale, kMaxScale);
   return levenberg_marquardt<N>(
       pose, max_iterations,
       [&](const Pose& at) {
@@ -101,7 +101,7 @@ bool fits(const std::vector<Correspondence>& matched, Correspondence::Kind kind,
   std::vector<Correspondence> of_kind;
   std::copy_if(matched.begin(), matched.end(), std::back_inserter(of_kind),
                [&](const Correspondence& c) { return c.kind == kind; });
-  return of_kind.empty() || robust_scale(of_kind, pose, 1.0, 0.0, kMaxScale) < kMaxSpread;
+  return spread(of_kind, pose) < kMaxSpread;
 }
 
 }  // namespace
@@ -164,7 +164,7 @@ Motion Odometry::estimate(const Features& features, const Pose& guess, double se
   motion.solved = fits(matched, Correspondence::Kind::line, pose) &&
                   fits(matched, Correspondence::Kind::plane, pose);
   if (!motion.solved) return motion;
-  const double scale = robust_scale(matched, pose, kKernelSigmas, kMinScale, kMaxScale);
+  const double scale = robust_scale(matched, pose, kKernelSpreads, kMinScale, kMaxScale);
   motion.localizability = localizability(matched, pose, scale, settings_.min_strength);
   motion.T_previous_current =
       normalized(keep_guess_where_degenerate(pose, guess, motion.localizability));

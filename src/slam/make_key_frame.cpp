@@ -5,18 +5,17 @@
 #include <cmath>
 #include <limits>
 
-#include "mapping/voxel_filter.hpp"
+#include "mapping/thin_out.hpp"
+#include "mapping/voxel_table.hpp"
 #include "odometry/deskew.hpp"
 
 namespace lego_loam_sc {
 namespace {
 
-std::vector<PackedPoint> thin_out(const std::vector<FeaturePoint>& points, double spacing) {
-  std::vector<PackedPoint> packed;
-  for (const FeaturePoint& p :
-       voxel_filter(points, spacing, [](const FeaturePoint& q) { return q.position; }))
-    packed.push_back(pack(p.position, p.intensity));
-  return packed;
+std::vector<PackedPoint> packed(const std::vector<FeaturePoint>& points) {
+  std::vector<PackedPoint> result;
+  for (const FeaturePoint& p : points) result.push_back(pack(p.position, p.intensity));
+  return result;
 }
 
 float age_span(const RangeImage& image) {
@@ -42,10 +41,11 @@ KeyFrame make_key_frame(const RangeImage& image, const Segmentation& segmentatio
   KeyFrame key_frame;
   key_frame.reference_ns = image.reference_ns;
   key_frame.travelled = travelled;
-  key_frame.planars = thin_out(deskewed.planars_large, spacing);
-  key_frame.edges = thin_out(deskewed.edges_large, spacing);
+  const Features thin = thin_out(deskewed, spacing);
+  key_frame.planars = packed(thin.planars_large);
+  key_frame.edges = packed(thin.edges_large);
 
-  // What the features leave out, in voxels that they have not taken.
+  // What these leave out, in voxels that they have not taken.
   VoxelTable<char> taken;
   taken.reserve(image.size() / 4);
   const auto take = [&](const Eigen::Vector3f& p) {
@@ -54,6 +54,8 @@ KeyFrame make_key_frame(const RangeImage& image, const Segmentation& segmentatio
   };
   for (const auto* cloud : {&key_frame.planars, &key_frame.edges})
     for (const PackedPoint& p : *cloud) take(p.position());
+  for (const FeaturePoint& p : thin.scattered)
+    if (take(p.position)) key_frame.scattered.push_back(pack(p.position, p.intensity));
   // Along a row most points share the voxel of the one before; a glance at the distance is cheaper
   // than a look into the table.
   const float near = static_cast<float>(0.25 * spacing * spacing);

@@ -18,6 +18,7 @@
 #include "slam/loop_closer.hpp"
 #include "slam/make_key_frame.hpp"
 #include "slam/stage_timer.hpp"
+#include "slam/stamp_pose.hpp"
 #include "slam/transform_fusion.hpp"
 
 namespace lego_loam_sc {
@@ -34,16 +35,12 @@ const Settings& checked(const SensorModel& sensor, const Settings& settings) {
   return settings;
 }
 
-Features deskewed(const Features& features, const Vector6& twist) {
-  return {deskew(features.edges_sharp, twist), deskew(features.planars_flat, twist),
-          deskew(features.edges_large, twist), deskew(features.planars_large, twist)};
-}
-
 // A scan at its reference time.
 struct Placed {
   std::int64_t reference_ns = 0;
   Pose T_map_lidar = Pose::Identity();
   Pose T_odom_lidar = Pose::Identity();
+  Vector6 twist = Vector6::Zero();  // m/s and rad/s, of the sensor in its own axes
 };
 
 double seconds_between(std::int64_t from_ns, std::int64_t to_ns) {
@@ -142,18 +139,24 @@ ScanReport Slam::State::process(const Scan& scan) {
 
   // The same motion carries the live pose on, which no loop ever moves.
   const Pose T_previous_current = previous.T_map_lidar.inverse() * match.T_map_lidar;
-  const Placed current{image.reference_ns, match.T_map_lidar,
-                       normalized(previous.T_odom_lidar * T_previous_current)};
+  Placed current{image.reference_ns, match.T_map_lidar,
+                 normalized(previous.T_odom_lidar * T_previous_current), twist};
   stamp_ns = scan.stamp_ns;
   const bool good = report.status <= Status::odometry_only;
+  const double stamp_age = seconds_between(image.reference_ns, stamp_ns);
+  Pose T_reference_stamp = extrapolate(twist, stamp_age);
   Features features_deskewed;
   if (good) {
     if (!first)
       twist = log_se3(settings.mapping.every == 1 ? T_previous_current : motion.T_previous_current) /
               seconds;
     travelled += T_previous_current.translation().norm();
+    current.twist = match.matched ? match.twist : twist;
+    T_reference_stamp = first ? extrapolate(current.twist, stamp_age)
+                              : interpolate(T_previous_current, previous.twist, current.twist, seconds,
+                                            stamp_age);
     previous = current;
-    features_deskewed = deskewed(features, twist);
+    features_deskewed = deskew(features, current.twist);
     odometry.set_previous(features_deskewed);
     if (report.mapped) mapper.insert(features_deskewed, current.T_map_lidar);
   }
@@ -163,7 +166,7 @@ ScanReport Slam::State::process(const Scan& scan) {
   if (first || (good && report.mapped && is_key_frame(T_map_lidar))) {
     report.key_frame = static_cast<int>(key_frames.size());
     scan_of_key_frame.push_back(report.index);
-    const std::vector<Eigen::Vector3f> points = deskewed_points(image, twist);
+    const std::vector<Eigen::Vector3f> points = deskewed_points(image, current.twist);
     add_key_frame(make_key_frame(image, segmentation, features_deskewed, points, travelled,
                                  settings.key_frames.point_spacing),
                   match, make_scan_context(points, height, settings.loop.scan_context));
@@ -171,7 +174,6 @@ ScanReport Slam::State::process(const Scan& scan) {
     T_map_lidar = graph.poses().back();
   }
 
-  const Pose T_reference_stamp = exp_se3(twist * seconds_between(image.reference_ns, stamp_ns));
   report.T_odom_lidar = current.T_odom_lidar * T_reference_stamp;
   live.push_back({stamp_ns, report.T_odom_lidar});
   fusion.add(stamp_ns, static_cast<int>(key_frames.size()) - 1,
@@ -275,10 +277,7 @@ void Slam::State::rebuild_local_map() {
   for (std::size_t k = 0; k < key_frames.size(); ++k) {
     const Pose& T_map_key = graph.poses()[k];
     if ((T_map_key.translation() - here).norm() > settings.mapping.radius) continue;
-    Features features;
-    features.planars_large = unpack(key_frames[k].planars);
-    features.edges_large = unpack(key_frames[k].edges);
-    mapper.insert(features, T_map_key);
+    mapper.insert(unpack(key_frames[k]), T_map_key);
   }
 }
 
