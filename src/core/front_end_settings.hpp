@@ -126,7 +126,7 @@ struct MappingSettings {
   double voxel_size = 0.25;
   int levels = 3;
   double radius = 100.0;
-  double insert_distance = 0.1;
+  double insert_distance = 0.05;
   double match_spacing = 1.0;
   int match_points = 1000;
   int associations = 5;

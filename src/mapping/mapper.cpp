@@ -172,7 +172,12 @@ MapMatch Mapper::refine(const Features& features, const ScanGuess& guess) {
   }
 
   Pose pose = guess.T_map_lidar;
-  PosePrior prior(pose, settings_.prior_translation, prior_rotation);
+  // A prediction is off by what the sensor may have accelerated.
+  const double acceleration = settings_.acceleration * guess.seconds * guess.seconds;
+  const double prior_translation = guess.measured || acceleration == 0.0
+                                       ? settings_.prior_translation
+                                       : std::min(acceleration, settings_.prior_translation);
+  PosePrior prior(pose, prior_translation, prior_rotation);
   const VelocityPrior velocity_prior(guess.T_previous_current * guess.T_map_lidar.inverse(),
                                      guess.seconds, settings_.acceleration,
                                      radians(settings_.angular_acceleration_deg));
@@ -191,7 +196,7 @@ MapMatch Mapper::refine(const Features& features, const ScanGuess& guess) {
     if (k == 0) {
       match.localizability = localizability(correspondences, pose, scale, settings_.min_strength);
       pose = predicted_where_nothing_holds(guess, match.localizability);
-      prior = PosePrior(pose, settings_.prior_translation, prior_rotation);
+      prior = PosePrior(pose, prior_translation, prior_rotation);
       prior.tie(match.localizability);
     }
     Sweep sweep{pose};

@@ -31,6 +31,7 @@ struct ScanGuess {
   Pose T_map_predicted = Pose::Identity();     ///< the same if the last motion goes on
   Pose T_previous_current = Pose::Identity();  ///< motion since the previous scan
   double seconds = 0.1;                        ///< of that motion
+  bool measured = true;                        ///< by the odometry; false: the pose is the prediction
 };
 
 /// Scan-to-map refinement, paper 2.3 (4).

@@ -94,8 +94,7 @@ Surface::Kind SurfaceMap::kind_of(const Eigen::Vector3d& variance,
   switch (settings_.kind) {
     case Surface::Kind::plane: return plane ? Surface::Kind::plane : Surface::Kind::none;
     case Surface::Kind::line: return line ? Surface::Kind::line : Surface::Kind::none;
-    default:
-      return plane ? Surface::Kind::plane : line ? Surface::Kind::line : Surface::Kind::point;
+    default: return Surface::Kind::point;
   }
 }
 

@@ -12,7 +12,7 @@
 
 namespace lego_loam_sc {
 
-/// The plane or line that the points round a place lie on, or the place itself when they do on none.
+/// The plane or line that the points round a place lie on, or their middle.
 struct Surface {
   enum class Kind : std::uint8_t { none, plane, line, point };
 
@@ -24,7 +24,7 @@ struct Surface {
 };
 
 struct SurfaceMapSettings {
-  Surface::Kind kind = Surface::Kind::plane;  ///< what is fitted; point: whatever fits
+  Surface::Kind kind = Surface::Kind::plane;  ///< what is fitted
   double voxel_size = 0.5;                    ///< m
   double planarity = 0.1;                     ///< largest ratio of the eigenvalues, see surface_at
 };

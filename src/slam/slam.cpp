@@ -199,9 +199,10 @@ Motion Slam::State::predict_and_match(const Features& features, double seconds,
 MapMatch Slam::State::refine(const Features& features, const Motion& motion, double seconds,
                              ScanReport& report) {
   const Pose predicted = exp_se3(twist * seconds);
-  const auto refine_from = [&](const Pose& T_previous_current) {
+  const auto refine_from = [&](const Pose& T_previous_current, bool measured) {
     return mapper.refine(features, {previous.T_map_lidar * T_previous_current,
-                                    previous.T_map_lidar * predicted, T_previous_current, seconds});
+                                    previous.T_map_lidar * predicted, T_previous_current, seconds,
+                                    measured});
   };
   MapMatch match;
   match.T_map_lidar = previous.T_map_lidar * motion.T_previous_current;
@@ -210,9 +211,9 @@ MapMatch Slam::State::refine(const Features& features, const Motion& motion, dou
   if (mapper.empty()) return match;
 
   if (report.mapped) {
-    match = refine_from(motion.T_previous_current);
+    match = refine_from(motion.T_previous_current, motion.solved);
     if (!match.matched && motion.solved) {
-      const MapMatch again = refine_from(predicted);
+      const MapMatch again = refine_from(predicted, false);
       if (again.matched) match = again;
     }
     report.elevation_bias_deg = degrees(mapper.elevation_bias());
