@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -11,6 +12,7 @@
 #include "cli_program.hpp"
 #include "eval/association.hpp"
 #include "eval/errors.hpp"
+#include "io/bytes.hpp"
 #include "io/pcd.hpp"
 #include "io/ply.hpp"
 #include "io/text.hpp"
@@ -69,17 +71,17 @@ TEST(Run, LeavesExactlyTheDocumentedFiles) {
   shell.must(kSimulate);
   shell.must("$P run scans -o result");
   EXPECT_EQ(names_in(shell.folder() / "result"),
-            (std::set<std::string>{"graph.g2o", "loops.csv", "map.pcd", "map.ply", "odometry.tum",
-                                   "scans.csv", "sensor.yaml", "settings.yaml", "summary.json",
-                                   "trajectory.tum", "trajectory_kitti.txt"}));
+            (std::set<std::string>{"graph.g2o", "loop_scans.ply", "loops.csv", "map.pcd", "map.ply",
+                                   "odometry.tum", "scans.csv", "sensor.yaml", "settings.yaml",
+                                   "summary.json", "trajectory.tum", "trajectory_kitti.txt"}));
 }
 
 TEST(Run, WritesOnePoseForEachScanWithNineDecimals) {
   const Shell shell;
   shell.must(kSimulate);
   shell.must("$P run scans -o result");
-  for (const auto& [name, columns] : {std::pair("trajectory.tum", 8U), {"odometry.tum", 8U},
-                                      {"trajectory_kitti.txt", 12U}}) {
+  for (const auto& [name, columns] :
+       {std::pair("trajectory.tum", 8U), {"odometry.tum", 8U}, {"trajectory_kitti.txt", 12U}}) {
     const auto lines = lines_of(shell.folder() / "result" / name);
     EXPECT_EQ(lines.size(), 12U) << name;
     for (const std::string& line : lines) {
@@ -186,6 +188,38 @@ TEST(Run, WritesTheSameMapInBothFormatsWithAsManyPointsAsItSays) {
   EXPECT_EQ(ply.points, pcd.points);
   EXPECT_EQ(ply.intensity, pcd.intensity);
   EXPECT_EQ(ply.intensity.size(), ply.size());
+}
+
+// Key frames that a cloud's points are of, with the number of points of each.
+std::map<int, int> key_frames_in(const fs::path& ply) {
+  const std::string bytes = read_text(ply);
+  std::map<int, int> counts;
+  for (std::size_t at = bytes.find("end_header\n") + 11; at < bytes.size(); at += 20)
+    ++counts[load<std::int32_t>(&bytes[at + 16])];
+  return counts;
+}
+
+TEST(Run, NamesTheKeyFrameOfEachPointAndKeepsTheScansOfEachLoop) {
+  const Shell shell;
+  shell.must(kLongSimulate);
+  shell.must(kLoopyRun + " -o result");
+  const fs::path result = shell.folder() / "result";
+  const auto summary = nlohmann::json::parse(read_text(result / "summary.json"));
+  const std::map<int, int> map = key_frames_in(result / "map.ply");
+  EXPECT_EQ(map.begin()->first, 0);
+  EXPECT_LT(map.rbegin()->first, summary["key_frames"].get<int>());
+  EXPECT_GT(map.size(), summary["key_frames"].get<std::size_t>() / 2);
+
+  std::set<int> expected;
+  for (const auto& row : read_csv(result / "loops.csv"))
+    if (row.back() == "accepted") expected.insert({std::stoi(row[0]), std::stoi(row[1])});
+  EXPECT_FALSE(expected.empty());
+  std::set<int> kept;
+  for (const auto& [number, points] : key_frames_in(result / "loop_scans.ply")) {
+    kept.insert(number);
+    EXPECT_GT(points, 1000);
+  }
+  EXPECT_EQ(kept, expected);
 }
 
 TEST(Run, GivesTheSameBytesAgainAndWithAnyNumberOfThreads) {

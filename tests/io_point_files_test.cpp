@@ -263,15 +263,15 @@ TEST(Lzf, RefusesDamagedData) {
 
 TEST(CloudWriter, WritesWhatTheReadersRead) {
   const TemporaryFolder folder;
-  const std::vector<Eigen::Vector4f> points = {{1, 2, 3, 0.5F}, {-1.25F, 1e6F, 0, 255}};
+  const std::vector<MapPoint> points = {{{1, 2, 3}, 0.5F, 0}, {{-1.25F, 1e6F, 0}, 255, 70000}};
   write_pcd(folder.path() / "map.pcd", points);
   write_ply(folder.path() / "map.ply", points);
   for (const RawScan& raw :
        {read_pcd(folder.path() / "map.pcd"), read_ply(folder.path() / "map.ply")}) {
     ASSERT_EQ(raw.scan.size(), points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
-      EXPECT_EQ(raw.scan.points[i], points[i].head<3>());
-      EXPECT_EQ(raw.scan.intensity[i], points[i].w());
+      EXPECT_EQ(raw.scan.points[i], points[i].position);
+      EXPECT_EQ(raw.scan.intensity[i], points[i].intensity);
     }
   }
 }

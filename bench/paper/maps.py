@@ -23,7 +23,8 @@ def read_ply(path):
     content = path.read_bytes()
     header, data = content.split(b"end_header\n", 1)
     count = int(header.split(b"element vertex ")[1].split()[0])
-    return np.frombuffer(data, "<f4", 4 * count).reshape(count, 4)[:, :3]
+    # The fourth and fifth columns are the intensity and the key frame.
+    return np.frombuffer(data, "<f4", 5 * count).reshape(count, 5)[:, :3]
 
 
 def nearest_positions(points, positions):

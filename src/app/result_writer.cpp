@@ -5,7 +5,9 @@
 
 #include <Eigen/LU>
 #include <cstdio>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <thread>
 #include <utility>
 
 #include "eval/association.hpp"
@@ -90,6 +92,16 @@ void write_graph(const std::filesystem::path& path, const PoseGraph& graph) {
   write_g2o(path, vertices, edges);
 }
 
+void write_loop_scans(const std::filesystem::path& path, const std::set<int>& numbers,
+                      const std::vector<KeyFrame>& key_frames) {
+  std::vector<MapPoint> all;
+  for (const int number : numbers) {
+    const std::vector<MapPoint> points = points_of(key_frames[number], number);
+    all.insert(all.end(), points.begin(), points.end());
+  }
+  write_ply(path, all);
+}
+
 double path_length(const Trajectory& trajectory) {
   double length = 0.0;
   for (std::size_t i = 1; i < trajectory.size(); ++i)
@@ -110,6 +122,17 @@ Resources used_resources() {
   };
   return {seconds(usage.ru_utime) + seconds(usage.ru_stime),
           static_cast<double>(usage.ru_maxrss) / 1024.0};
+}
+
+// As Linux names it; where it does not, as on some ARM boards, nothing.
+std::string processor_name() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);)
+    if (line.starts_with("model name")) {
+      const std::size_t colon = line.find(": ");
+      return colon == line.npos ? "" : line.substr(colon + 2);
+    }
+  return "";
 }
 
 // KITTI's truth is the camera's.
@@ -148,7 +171,12 @@ void ResultWriter::add(const ScanReport& report) {
     odometry_.append(tum_line({report.stamp_ns, report.T_odom_lidar}));
   for (const LoopReport& loop : report.loops) {
     loops_.append(loop_line(loop));
-    ++(loop.verification.verdict == Verdict::accepted ? accepted_loops_ : refused_loops_);
+    if (loop.verification.verdict == Verdict::accepted) {
+      loop_key_frames_.insert({loop.candidate.query, loop.candidate.match});
+      ++accepted_loops_;
+    } else {
+      ++refused_loops_;
+    }
   }
   ++scan_count_;
   ++statuses_[std::string(to_string(report.status))];
@@ -160,16 +188,18 @@ std::string ResultWriter::finish(const Slam& slam, const DatasetFacts& dataset,
   write_tum(folder_ / "trajectory.tum", trajectory);
   write_kitti(folder_ / "trajectory_kitti.txt", trajectory, dataset.T_camera_lidar);
   write_graph(folder_ / "graph.g2o", slam.graph());
-  const std::vector<Eigen::Vector4f> map =
+  const std::vector<MapPoint> map =
       make_map(slam.key_frames(), slam.graph().poses(), settings_.output.map_voxel_size);
   write_ply(folder_ / "map.ply", map);
   write_pcd(folder_ / "map.pcd", map);
+  write_loop_scans(folder_ / "loop_scans.ply", loop_key_frames_, slam.key_frames());
 
   const double length = path_length(trajectory);
   const Resources resources = used_resources();
   const double milliseconds_per_scan =
       scan_count_ > 0 ? 1e3 * resources.cpu_seconds / static_cast<double>(scan_count_) : 0.0;
   nlohmann::ordered_json summary = {
+      {"version", LEGO_LOAM_SC_VERSION},
       {"input", facts.input},
       {"method", facts.method},
       {"sensor", facts.sensor},
@@ -188,7 +218,9 @@ std::string ResultWriter::finish(const Slam& slam, const DatasetFacts& dataset,
         {"wall_seconds", facts.wall_seconds},
         {"cpu_seconds", resources.cpu_seconds},
         {"cpu_ms_per_scan", milliseconds_per_scan},
-        {"peak_memory_mb", resources.peak_megabytes}}}};
+        {"peak_memory_mb", resources.peak_megabytes},
+        {"processor", processor_name()},
+        {"processors", std::thread::hardware_concurrency()}}}};
   char text[512];
   std::snprintf(text, sizeof text,
                 "%zu scans, %.1f m, %zu key frames, %zu loops, %zu map points\n"

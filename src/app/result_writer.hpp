@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,7 @@ class ResultWriter {
   AppendFile scans_;
   AppendFile loops_;
   AppendFile odometry_;
+  std::set<int> loop_key_frames_;  ///< of accepted loops
   std::size_t scan_count_ = 0;
   std::size_t accepted_loops_ = 0;
   std::size_t refused_loops_ = 0;

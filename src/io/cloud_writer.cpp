@@ -9,34 +9,46 @@
 namespace lego_loam_sc {
 namespace {
 
-void write_cloud(const std::filesystem::path& path, const std::string& header,
-                 const std::vector<Eigen::Vector4f>& points) {
+static_assert(sizeof(MapPoint) == 20, "points are written as they lie");
+
+std::string_view bytes_of(const std::vector<MapPoint>& points) {
+  return {reinterpret_cast<const char*>(points.data()), points.size() * sizeof(MapPoint)};
+}
+
+void write_cloud(const std::filesystem::path& path, std::string_view header,
+                 std::string_view bytes) {
   AtomicFile file(path);
   file.write(header);
-  file.write(
-      {reinterpret_cast<const char*>(points.data()), points.size() * sizeof(Eigen::Vector4f)});
+  file.write(bytes);
   file.commit();
 }
 
 }  // namespace
 
-void write_ply(const std::filesystem::path& path, const std::vector<Eigen::Vector4f>& points) {
+void write_ply(const std::filesystem::path& path, std::string_view properties, std::size_t count,
+               std::string_view bytes) {
   write_cloud(path,
-              "ply\nformat binary_little_endian 1.0\nelement vertex " +
-                  std::to_string(points.size()) +
-                  "\nproperty float x\nproperty float y\nproperty float z\n"
-                  "property float intensity\nend_header\n",
-              points);
+              "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(count) +
+                  "\n" + std::string(properties) + "end_header\n",
+              bytes);
 }
 
-void write_pcd(const std::filesystem::path& path, const std::vector<Eigen::Vector4f>& points) {
+void write_ply(const std::filesystem::path& path, const std::vector<MapPoint>& points) {
+  write_ply(path,
+            "property float x\nproperty float y\nproperty float z\nproperty float intensity\n"
+            "property int key_frame\n",
+            points.size(), bytes_of(points));
+}
+
+void write_pcd(const std::filesystem::path& path, const std::vector<MapPoint>& points) {
   const std::string count = std::to_string(points.size());
   write_cloud(path,
               "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n"
-              "FIELDS x y z intensity\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\nWIDTH " +
+              "FIELDS x y z intensity key_frame\nSIZE 4 4 4 4 4\nTYPE F F F F I\n"
+              "COUNT 1 1 1 1 1\nWIDTH " +
                   count + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + count +
                   "\nDATA binary\n",
-              points);
+              bytes_of(points));
 }
 
 }  // namespace lego_loam_sc

@@ -5,11 +5,11 @@
 
 namespace lego_loam_sc {
 
-std::vector<Eigen::Vector4f> make_map(std::span<const KeyFrame> key_frames,
-                                      std::span<const Pose> T_map_key, double voxel_size) {
+std::vector<MapPoint> make_map(std::span<const KeyFrame> key_frames,
+                               std::span<const Pose> T_map_key, double voxel_size) {
   struct Nothing {};
   VoxelTable<Nothing> taken;
-  std::vector<Eigen::Vector4f> map;
+  std::vector<MapPoint> map;
   for (std::size_t k = 0; k < key_frames.size(); ++k) {
     const KeyFrame& key_frame = key_frames[k];
     for (const auto* cloud : {&key_frame.planars, &key_frame.edges, &key_frame.scattered, &key_frame.others}) {
@@ -17,12 +17,19 @@ std::vector<Eigen::Vector4f> make_map(std::span<const KeyFrame> key_frames,
         const Eigen::Vector3d p = T_map_key[k] * point.position().cast<double>();
         const auto key = key_of(p / voxel_size);
         if (!key || !taken.find_or_insert(*key).second) continue;
-        map.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()),
-                         static_cast<float>(p.z()), static_cast<float>(point.intensity));
+        map.push_back({p.cast<float>(), static_cast<float>(point.intensity), static_cast<int>(k)});
       }
     }
   }
   return map;
+}
+
+std::vector<MapPoint> points_of(const KeyFrame& key_frame, int number) {
+  std::vector<MapPoint> points;
+  for (const auto* cloud : {&key_frame.planars, &key_frame.edges, &key_frame.others})
+    for (const PackedPoint& point : *cloud)
+      points.push_back({point.position(), static_cast<float>(point.intensity), number});
+  return points;
 }
 
 }  // namespace lego_loam_sc

@@ -4,16 +4,18 @@
 #include <span>
 #include <vector>
 
-#include <Eigen/Core>
-
+#include "core/map_point.hpp"
 #include "core/pose.hpp"
 #include "loop/key_frame.hpp"
 
 namespace lego_loam_sc {
 
 /// The map: the points of all key frames at their poses, one for each voxel of `voxel_size` (m).
-/// x y z in the map frame (m) and intensity; in the order of the key frames.
-std::vector<Eigen::Vector4f> make_map(std::span<const KeyFrame> key_frames,
-                                      std::span<const Pose> T_map_key, double voxel_size);
+/// In the map frame and in the order of the key frames; a voxel belongs to the first that saw it.
+std::vector<MapPoint> make_map(std::span<const KeyFrame> key_frames,
+                               std::span<const Pose> T_map_key, double voxel_size);
+
+/// The points of one key frame in its own frame, without filter.
+std::vector<MapPoint> points_of(const KeyFrame& key_frame, int number);
 
 }  // namespace lego_loam_sc
