@@ -8,16 +8,15 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 PROGRAM = ROOT / "build/release/lego-loam-sc"
-FEATURE_STAGES = ROOT / "build/release/feature_stages"
 
 
-def call(*arguments, program=PROGRAM):
+def call(*arguments):
     """Runs the program and returns what it prints; its error message ends this script."""
-    command = [str(argument) for argument in (program, *arguments)]
+    command = [str(argument) for argument in (PROGRAM, *arguments)]
     try:
         result = subprocess.run(command, text=True, capture_output=True)
     except FileNotFoundError:
-        sys.exit(f"{program} does not exist: build it with cmake --build --preset release")
+        sys.exit(f"{PROGRAM} does not exist: build it with cmake --build --preset release")
     if result.returncode != 0:
         sys.exit(f"{' '.join(command)}: {result.stderr.strip()}")
     return result.stdout

@@ -1,23 +1,28 @@
 """Figure 9: what the front end makes of one scan of the RS-LiDAR-16."""
 
-import csv
-import io
+import pathlib
+import tempfile
 
 import numpy as np
 
 import style
-from program import FEATURE_STAGES, call
+from program import call
 
 METHOD = "lego-loam-sc-paper"
 NEAR = 16.0  # m, half the side of what is drawn
 CEILING = 1.2  # m over the LiDAR; higher points hide the rest
+TYPES = {"float": "<f4", "int": "<i4", "ushort": "<u2", "uchar": "u1"}
+PLANAR_LARGE, PLANAR_FLAT, EDGE_LARGE, EDGE_SHARP = 1, 2, 3, 4  # the property `feature`
 
 
 def read_stages(scan):
-    """The columns that the example `feature_stages` prints, as arrays by name."""
-    rows = list(csv.reader(io.StringIO(call(scan, "rs16", METHOD, program=FEATURE_STAGES))))
-    columns = np.array(rows[1:], dtype=float).T
-    return dict(zip(rows[0], columns))
+    """What `lego-loam-sc inspect` says of the points of a scan, one record for each."""
+    with tempfile.TemporaryDirectory() as folder:
+        call("inspect", scan, "--sensor", "rs16", "--method", METHOD, "-o", folder)
+        content = (pathlib.Path(folder) / "segments.ply").read_bytes()
+    header, data = content.split(b"end_header\n", 1)
+    properties = [line.split()[1:] for line in header.decode().splitlines() if "property" in line]
+    return np.frombuffer(data, [(name, TYPES[kind]) for kind, name in properties])
 
 
 def oblique(points):
@@ -52,11 +57,11 @@ def figure(scans, folder):
     files = sorted((scans / "velodyne").iterdir())
     stages = read_stages(files[len(files) // 4])
     kept = (stages["z"] < CEILING) & (np.hypot(stages["x"], stages["y"]) < 1.6 * NEAR)
-    stages = {name: column[kept] for name, column in stages.items()}
+    stages = stages[kept]
     points = np.stack([stages["x"], stages["y"], stages["z"]])
 
-    def those(name):
-        return points[:, stages[name] > 0]
+    def those(*features):
+        return points[:, np.isin(stages["feature"], features)]
 
     clustered = stages["cluster"] >= 0
     behind = (points, "#dddddd", 0.6)
@@ -66,18 +71,22 @@ def figure(scans, folder):
         axes[1],
         "(b) ground red, segments in other colours",
         [
-            (those("ground"), "#e02020", 1.0),
+            (points[:, stages["ground"] > 0], "#e02020", 1.0),
             (points[:, clustered], cluster_colours(stages["cluster"][clustered]), 1.2),
         ],
     )
     draw(
         axes[2],
         "(c) 𝔽: edges blue, planar points orange",
-        [behind, (those("planar_large"), "#ff8c00", 3.0), (those("edge_large"), "#0040ff", 5.0)],
+        [
+            behind,
+            (those(PLANAR_LARGE, PLANAR_FLAT), "#ff8c00", 3.0),
+            (those(EDGE_LARGE, EDGE_SHARP), "#0040ff", 5.0),
+        ],
     )
     draw(
         axes[3],
         "(d) F: edges green, planar points pink",
-        [behind, (those("planar_flat"), "#ff1493", 9.0), (those("edge_sharp"), "#00a000", 9.0)],
+        [behind, (those(PLANAR_FLAT), "#ff1493", 9.0), (those(EDGE_SHARP), "#00a000", 9.0)],
     )
     style.save(result, folder / "fig09.png")

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/scan.hpp"
+#include "core/sensor_model.hpp"
+#include "core/settings.hpp"
+#include "features/features.hpp"
+#include "segmentation/range_image.hpp"
+#include "segmentation/segmentation.hpp"
+
+namespace lego_loam_sc {
+
+/// The smallest of the sets of paper 2.3 (2) that a point is in.
+enum class FeatureSet : std::uint8_t { none, planar_large, planar_flat, edge_large, edge_sharp };
+
+/// What the front end makes of one scan (the paper's figure 9). The arrays have one entry for each
+/// point of the image.
+struct ScanStages {
+  RangeImage image;
+  double sensor_height = 0.0;  ///< m; 0 = unknown
+  Segmentation segmentation;
+  Features features;
+  std::vector<float> roughness;  ///< equation (1); kNoRoughness where it is not defined
+  std::vector<float> sharpness;  ///< roughness over the threshold c_th: above 1 it is an edge's
+  std::vector<FeatureSet> feature_set;
+};
+
+/// The scan is taken as if the sensor stood still.
+ScanStages make_stages(const Scan& scan, const SensorModel& sensor, const Settings& settings);
+
+}  // namespace lego_loam_sc

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "app/scan_stages.hpp"
+
+namespace lego_loam_sc {
+
+/// Writes the stages as rows.ply, segments.ply, roughness.ply, features_large.ply and
+/// features_small.ply: the same points with all that is known about each, in the colours of that
+/// stage.
+void write_stage_clouds(const std::filesystem::path& folder, const ScanStages& stages);
+
+/// Writes index.html, the range image in the same colours under the lines of `summary`.
+void write_stage_page(const std::filesystem::path& folder, const ScanStages& stages,
+                      const SensorModel& sensor, const std::string& summary);
+
+}  // namespace lego_loam_sc
