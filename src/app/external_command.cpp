@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <string_view>
@@ -40,6 +41,21 @@ std::string find_program(const std::string& name) {
   return name;
 }
 
+std::vector<char*> to_argv(std::vector<std::string>& words) {
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  return arguments;
+}
+
+// As a shell would tell it.
+int wait_for(pid_t process) {
+  int status = 0;
+  while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
 void make_standard_input(int file) {
   dup2(file, STDIN_FILENO);
   close(file);
@@ -60,6 +76,26 @@ void run_external(char** argv) {
   argv[1] = verb;
 }
 
+bool make_report(const std::string& folder, bool quiet) {
+  std::fflush(stdout);  // what was said before comes before
+  std::vector<std::string> words = {find_program("lego-loam-sc-report")};
+  if (quiet) words.emplace_back("--quiet");
+  words.insert(words.end(), {"--", folder});
+  std::vector<char*> arguments = to_argv(words);
+  pid_t process = -1;
+  const int error =
+      posix_spawnp(&process, words.front().c_str(), nullptr, nullptr, arguments.data(), environ);
+  if (error != 0)
+    throw InputError(folder +
+                     " is complete but for the report: it is made by the companion package, and "
+                     "lego-loam-sc-report does not start (" +
+                     std::strerror(error) +
+                     "); install it with scripts/setup, or with pip install ./python, and call "
+                     "lego-loam-sc report " +
+                     folder);
+  return wait_for(process) == 0;
+}
+
 bool is_recording(const std::string& input) {
   std::error_code error;
   if (!fs::is_directory(input, error))
@@ -78,9 +114,7 @@ RecordingReader::RecordingReader(const std::string& input, const std::optional<s
   if (topic) words.insert(words.end(), {"--topic", *topic});
   if (quiet) words.emplace_back("--quiet");
   words.insert(words.end(), {"--", input});
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
+  std::vector<char*> arguments = to_argv(words);
 
   std::array<int, 2> ends;
   if (pipe2(ends.data(), O_CLOEXEC) != 0)
@@ -109,10 +143,7 @@ RecordingReader::RecordingReader(const std::string& input, const std::optional<s
 
 int RecordingReader::wait() {
   make_standard_input(open("/dev/null", O_RDONLY));  // it must not wait for us to read on
-  int status = 0;
-  while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
-  }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return wait_for(process_);
 }
 
 }  // namespace lego_loam_sc

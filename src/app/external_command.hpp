@@ -20,6 +20,10 @@ bool is_known_verb(const CLI::App& app, const std::string& word);
 /// was built in, and in PATH. Returns only when there is none.
 void run_external(char** argv);
 
+/// Runs the companion package's lego-loam-sc-report on the folder of a run and waits for it; false
+/// when it failed and said why. Throws InputError when it is not installed.
+bool make_report(const std::string& folder, bool quiet);
+
 /// True for a bag or a capture by its name, and for the folder of a ROS 2 bag: what the companion
 /// package reads.
 bool is_recording(const std::string& input);

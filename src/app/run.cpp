@@ -37,6 +37,7 @@ struct Options {
   int threads = 2;
   std::size_t first = 0;
   std::optional<std::size_t> count;
+  bool report = false;
   bool quiet = false;
 };
 
@@ -177,6 +178,7 @@ void run(const Options& options, int& exit_code) {
   const std::string summary = writer.finish(slam, dataset, facts);
   if (!options.quiet) std::printf("%sresults in %s\n", summary.c_str(), folder.c_str());
   if (!facts.faults.empty()) exit_code = 1;
+  if (options.report && !make_report(folder, options.quiet)) exit_code = 1;
 }
 
 }  // namespace
@@ -198,6 +200,7 @@ void add_run(CLI::App& app, int& exit_code) {
   command->add_option("--count", options->count, "number of scans to use");
   command->add_option("--truth", options->truth, "true trajectory, TUM or KITTI: adds the errors")
       ->check(CLI::ExistingFile);
+  command->add_flag("--report", options->report, "write report.html as well");
   command->add_flag("--quiet", options->quiet, "print errors only");
   command->callback([options, &exit_code] { run(*options, exit_code); });
 }
