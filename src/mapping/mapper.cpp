@@ -34,8 +34,19 @@ struct Sweep {
 
 using Vector12 = Eigen::Matrix<double, 12, 1>;
 
+// A velocity as unknown is what it moves in this time, s: half a sweep or so. Then a step of it is as large
+// as what it does to the points.
+constexpr double kVelocityUnit = 0.05;
+
 Sweep changed(const Sweep& sweep, const Vector12& delta) {
-  return {perturb(sweep.T_map_lidar, delta.head<6>()), sweep.velocity_change + delta.tail<6>()};
+  return {perturb(sweep.T_map_lidar, delta.head<6>()),
+          sweep.velocity_change + delta.tail<6>() / kVelocityUnit};
+}
+
+void change_unit(NormalEquations<12>& equations) {
+  equations.H.rightCols<6>() /= kVelocityUnit;
+  equations.H.bottomRows<6>() /= kVelocityUnit;
+  equations.g.tail<6>() /= kVelocityUnit;
 }
 
 Vector6 in_axes_of_lidar(const Sweep& sweep) {
@@ -207,6 +218,7 @@ MapMatch Mapper::refine(const Features& features, const ScanGuess& guess) {
               sweep_normal_equations(correspondences, at.T_map_lidar, at.velocity_change, scale);
           prior.add_to(equations, at.T_map_lidar);
           velocity_prior.add_to(equations, at, twist);
+          change_unit(equations);
           return equations;
         },
         changed);

@@ -20,6 +20,9 @@ constexpr double kMinSpread = 0.15;
 constexpr double kMaxTilt = 0.05;
 // A kept fit is good until its points have grown by this share.
 constexpr double kGrowth = 0.1;
+// A block is looked at again after one insertion more for so many points, and after so many at the latest.
+constexpr std::uint32_t kPointsPerRevision = 16;
+constexpr std::uint32_t kLongestRest = 10;
 
 }  // namespace
 
@@ -51,25 +54,24 @@ void SurfaceMap::insert(std::span<const Eigen::Vector3d> points,
 }
 
 void SurfaceMap::add(const Eigen::Vector3d& point, double range, const Cell& cell) {
-  const auto [voxel, is_new] = voxels_.find_or_insert(pack_cell(cell));
-  if (is_new) voxel.origin = corner_of(cell, 0.5);
-  const Eigen::Vector3d d = point - voxel.origin;
+  Voxel& voxel = voxels_.find_or_insert(pack_cell(cell)).first;
+  const Eigen::Vector3f d = (point - corner_of(cell, 0.5)).cast<float>();
+  ++voxel.count;
+  voxel.range += static_cast<float>(range);
   voxel.sum += d;
-  voxel.square.head<3>() += d.cwiseAbs2();
+  voxel.square[0] += d.x() * d.x();
+  voxel.square[1] += d.y() * d.y();
+  voxel.square[2] += d.z() * d.z();
   voxel.square[3] += d.x() * d.y();
   voxel.square[4] += d.x() * d.z();
   voxel.square[5] += d.y() * d.z();
-  voxel.range += range;
-  ++voxel.count;
 }
 
 const Surface& SurfaceMap::surface_at(const Eigen::Vector3d& point) {
   const auto corner = cell_of((point / settings_.voxel_size).array() - 0.5);
   if (!corner) return nothing_;
-  const auto [block, is_new] = blocks_.find_or_insert(pack_cell(*corner));
-  if (block.revision == revision_) return block.surface;
-  block.revision = revision_;
-  if (is_new) block.middle = corner_of(*corner, 1.0);
+  Block& block = blocks_.find_or_insert(pack_cell(*corner)).first;
+  if (revision_ < block.due) return block.surface;
 
   std::array<const Voxel*, 8> voxels{};
   std::uint32_t count = 0;
@@ -79,9 +81,10 @@ const Surface& SurfaceMap::surface_at(const Eigen::Vector3d& point) {
     if (voxels[i]) count += voxels[i]->count;
   }
   if (count >= kMinPoints && count > (1.0 + kGrowth) * block.count) {
-    block.surface = fit(voxels, count, block.middle);
+    block.surface = fit(voxels, count, *corner);
     block.count = count;
   }
+  block.due = revision_ + 1 + std::min(block.count / kPointsPerRevision, kLongestRest);
   return block.surface;
 }
 
@@ -99,21 +102,26 @@ Surface::Kind SurfaceMap::kind_of(const Eigen::Vector3d& variance,
 }
 
 Surface SurfaceMap::fit(const std::array<const Voxel*, 8>& voxels, std::uint32_t count,
-                        const Eigen::Vector3d& middle) const {
+                        const Cell& corner) const {
   // Sums of all voxels, moved to the middle of the block.
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
   double range = 0.0;
-  for (const Voxel* v : voxels) {
-    if (!v) continue;
-    const Eigen::Vector3d o = v->origin - middle;
-    const auto& s = v->square;
+  for (int i = 0; i < 8; ++i) {
+    if (!voxels[i]) continue;
+    const Voxel& v = *voxels[i];
+    const Eigen::Vector3d own_sum = v.sum.cast<double>();
+    const Eigen::Vector3d o =
+        settings_.voxel_size *
+        Eigen::Vector3d((i & 1) - 0.5, ((i >> 1) & 1) - 0.5, ((i >> 2) & 1) - 0.5);
+    const auto& s = v.square;
     Eigen::Matrix3d own;
     own << s[0], s[3], s[4], s[3], s[1], s[5], s[4], s[5], s[2];
-    square += own + v->sum * o.transpose() + o * v->sum.transpose() + v->count * o * o.transpose();
-    sum += v->sum + v->count * o;
-    range += v->range;
+    square += own + own_sum * o.transpose() + o * own_sum.transpose() + v.count * o * o.transpose();
+    sum += own_sum + v.count * o;
+    range += v.range;
   }
+  const Eigen::Vector3d middle = corner_of(corner, 1.0);
   const Eigen::Vector3d mean = sum / count;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
   eigen.computeDirect(square / count - mean * mean.transpose());
@@ -144,9 +152,11 @@ bool SurfaceMap::occupied(const Eigen::Vector3d& point) {
 }
 
 void SurfaceMap::remove_beyond(const Eigen::Vector3d& center, double radius) {
-  const double squared = radius * radius;
-  voxels_.retain([&](const Voxel& v) { return (v.origin - center).squaredNorm() <= squared; });
-  blocks_.retain([&](const Block& b) { return (b.middle - center).squaredNorm() <= squared; });
+  const auto within = [&](VoxelKey key) {
+    return (corner_of(unpack_cell(key), 0.5) - center).squaredNorm() <= radius * radius;
+  };
+  voxels_.retain(within);
+  blocks_.retain(within);
   ++revision_;
 }
 

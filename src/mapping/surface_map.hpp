@@ -33,7 +33,8 @@ struct SurfaceMapSettings {
 /// points that ever fell into it, so that a surface averages the noise of many scans. A surface is
 /// fitted to a block of 2 x 2 x 2 voxels. Blocks overlap: each place belongs to the one whose
 /// middle is nearest, hence lies at least half a voxel from its border, and no surface is cut in
-/// two at the border of a voxel. Fits are kept until points have come.
+/// two at the border of a voxel. Fits are kept until enough points have come; the more a block has, the
+/// less often that is looked at.
 class SurfaceMap {
  public:
   explicit SurfaceMap(const SurfaceMapSettings& settings);
@@ -57,26 +58,24 @@ class SurfaceMap {
   std::size_t size() const { return voxels_.size(); }
 
  private:
+  // Numbers are relative to the middle of the voxel or block, so that floats serve.
   struct Voxel {
     std::uint32_t count = 0;
-    Eigen::Vector3d origin;                                 // centre of the voxel, map frame
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();          // of the points less the origin
-    Eigen::Matrix<double, 6, 1> square = Eigen::Matrix<double, 6, 1>::Zero();  // xx yy zz xy xz yz
-    double range = 0.0;  // sum
+    float range = 0.0f;                                    // sum, m
+    Eigen::Vector3f sum = Eigen::Vector3f::Zero();         // of the points
+    std::array<float, 6> square{};                         // sums of xx yy zz xy xz yz
   };
   struct Block {
-    std::uint32_t revision = 0;  // of the map when the block was last looked at
-    std::uint32_t count = 0;     // points at the last fit
+    std::uint32_t due = 0;    // revision of the map at which the block is looked at again
+    std::uint32_t count = 0;  // points at the last fit
     Surface surface;
-    Eigen::Vector3d middle;
   };
 
   void add(const Eigen::Vector3d& point, double range, const Cell& cell);
   Eigen::Vector3d corner_of(const Cell& cell, double cells) const;
   /// `variance`: along the axes of a block's points, ascending, m^2.
   Surface::Kind kind_of(const Eigen::Vector3d& variance, std::uint32_t count) const;
-  Surface fit(const std::array<const Voxel*, 8>& voxels, std::uint32_t count,
-              const Eigen::Vector3d& middle) const;
+  Surface fit(const std::array<const Voxel*, 8>& voxels, std::uint32_t count, const Cell& corner) const;
 
   SurfaceMapSettings settings_;
   VoxelTable<Voxel> voxels_;

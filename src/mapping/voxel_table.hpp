@@ -27,6 +27,14 @@ constexpr VoxelKey pack_cell(std::int64_t x, std::int64_t y, std::int64_t z) {
 
 constexpr VoxelKey pack_cell(const Cell& cell) { return pack_cell(cell[0], cell[1], cell[2]); }
 
+/// The cell of a key.
+constexpr Cell unpack_cell(VoxelKey key) {
+  const auto number = [](VoxelKey bits) {
+    return static_cast<std::int64_t>(bits << 43) >> 43;  // the sign is the 21st bit
+  };
+  return {number(key >> 42), number(key >> 21), number(key)};
+}
+
 /// The cell of a point scaled to units of cells; nothing for a point out of the grid's range, whose
 /// outermost cells stay free, or not finite, which must never alias into it.
 inline std::optional<Cell> cell_of(const Eigen::Vector3d& scaled) {
@@ -91,12 +99,12 @@ class VoxelTable {
     return {values_.back(), true};
   }
 
-  /// Keeps the values for which keep(value) holds, in their order.
+  /// Keeps the values of the cells for which keep(key) holds, in their order.
   template <class Keep>
   void retain(Keep&& keep) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < values_.size(); ++i) {
-      if (!keep(values_[i])) continue;
+      if (!keep(keys_[i])) continue;
       values_[kept] = std::move(values_[i]);
       keys_[kept] = keys_[i];
       ++kept;

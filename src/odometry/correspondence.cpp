@@ -7,6 +7,9 @@
 namespace lego_loam_sc {
 namespace {
 
+// Farther points cost no more, so that the product of two of them is still a number.
+constexpr double kFurthest = 1e100;
+
 using Matrix36 = Eigen::Matrix<double, 3, 6>;
 
 // Offset from the plane along its normal, from the line across it, or from the point.
@@ -23,8 +26,25 @@ double robust_sigma(std::vector<double>& absolute) {
   return 1.4826 * *middle;
 }
 
-// Gives J'J and J'r of one weighted distance to `add` and returns its cost. `rotated`: the point
-// less the source's origin, in axes of the target; `moved`: the point in the target frame.
+// The sum of log(x) of numbers of at least 1, by far fewer logarithms than numbers.
+class LogSum {
+ public:
+  void add(double x) {
+    product_ *= x;
+    if (product_ < 1e200) return;
+    sum_ += std::log(product_);
+    product_ = 1.0;
+  }
+  double value() const { return sum_ + std::log(product_); }
+
+ private:
+  double product_ = 1.0;
+  double sum_ = 0.0;
+};
+
+// Gives J'J and J'r of one weighted distance to `add` and returns 1 + (sigmas / scale)^2, whose logarithm
+// is the cost. `rotated`: the point less the source's origin, in axes of the target; `moved`: the point
+// in the target frame.
 template <class Add>
 double linearise(const Correspondence& c, const Eigen::Vector3d& rotated,
                  const Eigen::Vector3d& moved, double scale, Add&& add) {
@@ -47,7 +67,7 @@ double linearise(const Correspondence& c, const Eigen::Vector3d& rotated,
     const double weight = robust_weight(c, std::sqrt(squared), scale);
     add(Matrix6((weight * rows.transpose()).lazyProduct(rows)), weight * rows.transpose() * e);
   }
-  return 0.5 * scale * scale * std::log1p(c.weight * squared / (scale * scale));
+  return 1.0 + std::min(c.weight * squared / (scale * scale), kFurthest);
 }
 
 }  // namespace
@@ -82,14 +102,16 @@ double spread(std::span<const Correspondence> correspondences, const Pose& T_tar
 NormalEquations<6> normal_equations(std::span<const Correspondence> correspondences,
                                     const Pose& T_target_source, double scale) {
   NormalEquations<6> sum;
+  LogSum cost;
   for (const Correspondence& c : correspondences) {
     const Eigen::Vector3d rotated = T_target_source.linear() * c.point;
-    sum.cost += linearise(c, rotated, rotated + T_target_source.translation(), scale,
-                          [&](const auto& JtJ, const Vector6& Jtr) {
-                            sum.H += JtJ;
-                            sum.g += Jtr;
-                          });
+    cost.add(linearise(c, rotated, rotated + T_target_source.translation(), scale,
+                       [&](const auto& JtJ, const Vector6& Jtr) {
+                         sum.H += JtJ;
+                         sum.g += Jtr;
+                       }));
   }
+  sum.cost = 0.5 * scale * scale * cost.value();
   return sum;
 }
 
@@ -97,6 +119,7 @@ NormalEquations<12> sweep_normal_equations(std::span<const Correspondence> corre
                                            const Pose& T_target_source,
                                            const Vector6& velocity_change, double scale) {
   NormalEquations<12> sum;
+  LogSum cost;
   std::array<Matrix6, 3> H;  // by powers of the age
   H.fill(Matrix6::Zero());
   for (const Correspondence& c : correspondences) {
@@ -104,15 +127,16 @@ NormalEquations<12> sweep_normal_equations(std::span<const Correspondence> corre
     const Eigen::Vector3d moved =
         rotated + T_target_source.translation() +
         c.age * (velocity_change.head<3>() + velocity_change.tail<3>().cross(rotated));
-    sum.cost += linearise(c, rotated, moved, scale, [&](const auto& JtJ, const Vector6& Jtr) {
+    cost.add(linearise(c, rotated, moved, scale, [&](const auto& JtJ, const Vector6& Jtr) {
       H[0] += JtJ;
       H[1] += c.age * JtJ;
       H[2] += c.age * c.age * JtJ;
       sum.g.head<6>() += Jtr;
       sum.g.tail<6>() += c.age * Jtr;
-    });
+    }));
   }
   sum.H << H[0], H[1], H[1], H[2];
+  sum.cost = 0.5 * scale * scale * cost.value();
   return sum;
 }
 
