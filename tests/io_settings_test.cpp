@@ -106,7 +106,11 @@ TEST(Yaml, SurvivesDamage) {
 TEST(SensorYaml, AllPresetsLoadAndSurviveBeingPrinted) {
   const TemporaryFolder folder;
   const std::vector<std::string> names = preset_names("sensors");
-  EXPECT_EQ(names, (std::vector<std::string>{"hdl32e", "hdl64e", "kitti", "rs16", "vlp16"}));
+  EXPECT_EQ(names,
+            (std::vector<std::string>{
+                "hdl32e",  "hdl64e", "helios16p",   "kitti",  "os0-128",   "os0-32",   "os0-64",
+                "os1-128", "os1-32", "os1-64-gen1", "os1-64", "pandar40p", "pandar64", "rs16",
+                "rs32",    "ruby",   "vlp16",       "vlp32c", "vls128",    "xt16",     "xt32"}));
   for (const std::string& name : names) {
     const SensorModel sensor = load_sensor(name);
     EXPECT_EQ(sensor.name, name);
@@ -130,13 +134,29 @@ TEST(SensorYaml, PresetsHaveTheBeamsOfTheirSensors) {
   EXPECT_EQ(kitti.rows(), 64);
   EXPECT_TRUE(kitti.motion_compensated);
   EXPECT_EQ(kitti.elevation_correction_deg, 0.205);
+  const auto rows_of = [](const char* name, double lowest, double highest) {
+    const SensorModel sensor = load_sensor(name);
+    EXPECT_EQ(sensor.elevation_deg.front(), lowest) << name;
+    EXPECT_EQ(sensor.elevation_deg.back(), highest) << name;
+    return sensor.rows();
+  };
+  EXPECT_EQ(rows_of("vlp32c", -25, 15), 32);
+  EXPECT_EQ(rows_of("vls128", -25, 15), 128);
+  EXPECT_EQ(rows_of("rs32", -25, 15), 32);
+  EXPECT_EQ(rows_of("ruby", -25, 15), 128);
+  EXPECT_EQ(rows_of("pandar40p", -25, 15), 40);
+  EXPECT_EQ(rows_of("pandar64", -24.897, 14.882), 64);
+  EXPECT_EQ(rows_of("os0-128", -45, 45), 128);
+  EXPECT_EQ(rows_of("os1-32", -21.2, 21.2), 32);
+  EXPECT_EQ(rows_of("xt32", -16, 15), 32);
 }
 
 TEST(SensorYaml, UnknownNamesGetTheListAndTheNearest) {
   const std::string message = error_of([] { load_sensor("vpl16"); });
-  EXPECT_EQ(message,
-            "there is no sensor and no file vpl16; the presets are hdl32e, hdl64e, kitti, rs16, "
-            "vlp16 (vlp16 is the nearest)");
+  EXPECT_TRUE(message.starts_with(
+      "there is no sensor and no file vpl16; the presets are hdl32e, hdl64e, helios16p, kitti, "))
+      << message;
+  EXPECT_TRUE(message.ends_with(" vlp32c, vls128, xt16, xt32 (vlp16 is the nearest)")) << message;
 }
 
 TEST(SensorYaml, RefusesWrongBeams) {
