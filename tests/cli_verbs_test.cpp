@@ -37,6 +37,17 @@ void turn_scan(const fs::path& file, double yaw) {
   std::ofstream(file, std::ios::binary) << bytes;
 }
 
+TEST(Sensor, LearnsASensorFileThatARunTakes) {
+  const Shell shell;
+  shell.must("$P simulate parking --count 3 --sensor vlp32c -o - > scans");
+  shell.must("$P sensor scans --count 2 -o mine.yaml");
+  EXPECT_EQ(shell.must("$P sensor scans --count 2"), read_text(shell.folder() / "mine.yaml"));
+  const std::string facts = shell.must("$P config --sensor mine.yaml");
+  EXPECT_NE(facts.find("elevation_deg: [-25, -15.639, -11.31, "), facts.npos) << facts;
+  EXPECT_NE(facts.find("\ncolumns: 1800 "), facts.npos) << facts;
+  shell.must("$P run scans --sensor mine.yaml -o result --quiet");
+}
+
 TEST(Match, FindsTheTransformBetweenTwoSimulatedScansHoweverTheyAreTurned) {
   constexpr double kYaw = 2.5;
   const Shell shell;

@@ -16,5 +16,6 @@ void add_match(CLI::App& app);
 void add_evaluate(CLI::App& app);
 void add_config(CLI::App& app);
 void add_inspect(CLI::App& app);
+void add_sensor(CLI::App& app);
 
 }  // namespace lego_loam_sc

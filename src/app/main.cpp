@@ -43,6 +43,7 @@ int main(int argc, char** argv) {
   add_evaluate(app);
   add_config(app);
   add_inspect(app);
+  add_sensor(app);
   app.footer("Any other verb runs lego-loam-sc-VERB from PATH.");
 
   if (argc > 1 && !is_known_verb(app, argv[1])) {

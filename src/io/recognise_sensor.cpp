@@ -8,11 +8,14 @@
 #include <vector>
 
 #include "core/pose.hpp"
+#include "io/beams.hpp"
 #include "io/error.hpp"
 #include "io/preset_text.hpp"
 #include "io/raw_scan.hpp"
 #include "io/sensor_yaml.hpp"
 #include "io/text.hpp"
+#include "segmentation/row_assignment.hpp"
+#include "segmentation/storage_order.hpp"
 
 namespace lego_loam_sc {
 namespace {
@@ -23,6 +26,8 @@ constexpr double kFitShare = 0.8;
 constexpr double kFarDeg = 2.0;
 constexpr double kStrayShare = 0.05;
 constexpr double kMisfitShare = 0.2;
+constexpr double kRingShare = 0.9;  // of the beams of a preset that must be there
+constexpr double kNearDeg = 0.5;    // on average; units of one model differ by up to this much
 
 struct Elevations {
   std::vector<double> deg;  // of the points with a return
@@ -82,16 +87,11 @@ std::size_t count_rings(const Scan& scan) {
   return static_cast<std::size_t>(std::count(seen.begin(), seen.end(), true));
 }
 
-// KITTI stores ring after ring, each from straight ahead once round to the left.
 std::size_t count_stored_rings(const Scan& scan) {
-  std::size_t rings = 1;
-  bool fourth_quadrant = false;
-  for (const Eigen::Vector3f& p : scan.points) {
-    if (!is_return(p)) continue;
-    if (fourth_quadrant && p.x() > 0.0F && p.y() >= 0.0F) ++rings;
-    fourth_quadrant = p.x() > 0.0F && p.y() < 0.0F;
-  }
-  return rings;
+  std::vector<std::uint8_t> returns(scan.size());
+  std::ranges::transform(scan.points, returns.begin(), is_return);
+  const std::vector<std::int16_t> ring = rings_of_storage_order(scan, returns);
+  return ring.empty() ? 0 : static_cast<std::size_t>(1 + *std::ranges::max_element(ring));
 }
 
 // Nothing when the scan looks like no sensor that we know.
@@ -99,7 +99,7 @@ std::optional<std::string> recognise(const Scan& scan, const Elevations& elevati
   const std::size_t rings = count_rings(scan);
   if (rings == 0) {
     const std::size_t stored = count_stored_rings(scan);
-    // The outermost may be empty; a step back at the seam counts one twice.
+    // The outermost may be empty.
     if (stored >= 60 && stored <= 66 &&
         share_outside(elevations, load_sensor("kitti").elevation_deg) < kStrayShare)
       return "kitti";
@@ -108,6 +108,8 @@ std::optional<std::string> recognise(const Scan& scan, const Elevations& elevati
     const SensorModel sensor = load_sensor(name);
     if (rings <= sensor.elevation_deg.size() && fits(elevations, sensor.elevation_deg)) return name;
   }
+  if (const auto preset = nearest_preset(beams_of_rings({&scan, 1}).elevation_deg))
+    return preset->name;
   // The beams of an HDL-64E differ too much from unit to unit to be compared one by one.
   if (rings > 32 && rings <= 64 &&
       share_outside(elevations, load_sensor("hdl64e").elevation_deg) < kStrayShare)
@@ -125,8 +127,32 @@ std::string describe(const Scan& scan, const Elevations& elevations) {
 
 }  // namespace
 
+std::optional<NearestPreset> nearest_preset(const std::vector<double>& elevation_deg) {
+  std::vector<double> elevation(elevation_deg.size());
+  std::ranges::transform(elevation_deg, elevation.begin(), radians);
+  std::optional<NearestPreset> nearest;
+  // RS-LiDAR-16, RS-Helios-16P and XT16 have the beams of a VLP-16, by far the most common of them.
+  std::vector<std::string> names = preset_names("sensors");
+  names.insert(names.begin(), "vlp16");
+  for (const std::string& name : names) {
+    const SensorModel sensor = load_sensor(name);
+    if (sensor.motion_compensated || elevation.size() < kRingShare * sensor.rows()) continue;
+    const auto rows = align_to_beams(elevation, sensor);
+    if (!rows) continue;
+    double sum = 0.0;
+    for (std::size_t k = 0; k < rows->size(); ++k)
+      sum += std::abs(elevation_deg[k] - sensor.elevation_deg[(*rows)[k]]);
+    const double difference = sum / static_cast<double>(rows->size());
+    if (difference < (nearest ? nearest->difference_deg : kNearDeg))
+      nearest = NearestPreset{name, difference};
+  }
+  return nearest;
+}
+
 SensorModel recognise_sensor(const Scan& scan, const DatasetFacts& facts) {
   if (facts.sensor) return with_facts(load_sensor(*facts.sensor), facts);
+  if (const auto fault = fault_of_rings(beams_of_rings({&scan, 1})))
+    throw InputError("the sensor is not recognised: " + *fault);
   const Elevations elevations = measure_elevations(scan);
   const std::optional<std::string> name =
       elevations.deg.empty() ? std::nullopt : recognise(scan, elevations);
@@ -140,6 +166,7 @@ SensorModel recognise_sensor(const Scan& scan, const DatasetFacts& facts) {
 std::optional<std::string> sensor_mismatch(const Scan& scan, const SensorModel& sensor) {
   const Elevations elevations = measure_elevations(scan);
   if (elevations.deg.empty()) return std::nullopt;
+  if (const auto fault = fault_of_rings(beams_of_rings({&scan, 1}))) return fault;
   const auto& beams = sensor.elevation_deg;
   if (count_rings(scan) <= beams.size() && share_outside(elevations, beams) <= kMisfitShare)
     return std::nullopt;

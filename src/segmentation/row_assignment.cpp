@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "core/pose.hpp"
+#include "segmentation/storage_order.hpp"
 
 namespace lego_loam_sc {
 namespace {
@@ -32,29 +33,11 @@ Groups groups_of_ring_field(const Scan& scan) {
   return groups;
 }
 
-// KITTI stores ring after ring, each swept counter-clockwise from straight ahead: a new ring
-// starts where the azimuth passes from the fourth quadrant to the first. The sweep in between must
-// exceed 270 degrees, so that jitter round zero starts nothing.
 Groups groups_of_storage_order(const Scan& scan, const std::vector<std::uint8_t>& usable) {
   Groups groups;
-  groups.of_point.assign(scan.size(), -1);
-  bool previous_in_fourth = false;
-  bool passed_rear = false;
-  int group = 0;
-  for (std::size_t i = 0; i < scan.size(); ++i) {
-    if (!usable[i]) continue;
-    const float x = scan.points[i].x();
-    const float y = scan.points[i].y();
-    if (previous_in_fourth && x > 0.0f && y >= 0.0f && passed_rear) {
-      ++group;
-      passed_rear = false;
-      if (group >= 4096) return {};
-    }
-    passed_rear = passed_rear || x < 0.0f;
-    previous_in_fourth = x > 0.0f && y < 0.0f;
-    groups.of_point[i] = static_cast<std::int16_t>(group);
-  }
-  groups.count = group + 1;
+  groups.of_point = rings_of_storage_order(scan, usable);
+  if (!groups.of_point.empty())
+    groups.count = 1 + *std::max_element(groups.of_point.begin(), groups.of_point.end());
   return groups;
 }
 
@@ -73,42 +56,9 @@ std::vector<double> mean_elevation(const Scan& scan, const std::vector<std::uint
   }
   std::vector<double> mean(groups.count);
   for (int g = 0; g < groups.count; ++g)
-    mean[g] = count[g] > 0 ? std::atan(sum[g] / count[g]) : std::numeric_limits<double>::quiet_NaN();
+    mean[g] =
+        count[g] > 0 ? std::atan(sum[g] / count[g]) : std::numeric_limits<double>::quiet_NaN();
   return mean;
-}
-
-// Row of each group: the order-preserving assignment of groups to beams with the least sum of
-// elevation differences (dynamic programming), so that a missing ring shifts no other.
-std::optional<std::vector<std::int16_t>> align_to_beams(const std::vector<double>& elevation,
-                                                        const SensorModel& sensor) {
-  std::vector<int> order;
-  for (std::size_t g = 0; g < elevation.size(); ++g)
-    if (!std::isnan(elevation[g])) order.push_back(static_cast<int>(g));
-  std::stable_sort(order.begin(), order.end(),
-                   [&](int a, int b) { return elevation[a] < elevation[b]; });
-  const int groups = static_cast<int>(order.size());
-  const int rows = sensor.rows();
-  if (groups == 0 || groups > rows) return std::nullopt;
-
-  const double infinity = std::numeric_limits<double>::infinity();
-  // cost[g][r]: the first g groups placed on the first r rows.
-  std::vector<double> cost(static_cast<std::size_t>(groups + 1) * (rows + 1), infinity);
-  const auto at = [&](int g, int r) -> double& { return cost[g * (rows + 1) + r]; };
-  const auto difference = [&](int g, int r) {
-    return std::abs(elevation[order[g]] - radians(sensor.elevation_deg[r]));
-  };
-  for (int r = 0; r <= rows; ++r) at(0, r) = 0.0;
-  for (int g = 1; g <= groups; ++g)
-    for (int r = g; r <= rows; ++r)
-      at(g, r) = std::min(at(g, r - 1), at(g - 1, r - 1) + difference(g - 1, r - 1));
-
-  std::vector<std::int16_t> row_of_group(elevation.size(), kNoRow);
-  for (int g = groups, r = rows; g > 0; --r) {
-    if (r > g && at(g, r) == at(g, r - 1)) continue;
-    row_of_group[order[g - 1]] = static_cast<std::int16_t>(r - 1);
-    --g;
-  }
-  return row_of_group;
 }
 
 // Rings lie one after another in the file, top ring first, when there are as many of them as beams
@@ -154,6 +104,39 @@ std::vector<std::int16_t> rows_of_elevation(const Scan& scan,
 }
 
 }  // namespace
+
+// Dynamic programming.
+std::optional<std::vector<std::int16_t>> align_to_beams(const std::vector<double>& elevation,
+                                                        const SensorModel& sensor) {
+  std::vector<int> order;
+  for (std::size_t g = 0; g < elevation.size(); ++g)
+    if (!std::isnan(elevation[g])) order.push_back(static_cast<int>(g));
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return elevation[a] < elevation[b]; });
+  const int groups = static_cast<int>(order.size());
+  const int rows = sensor.rows();
+  if (groups == 0 || groups > rows) return std::nullopt;
+
+  const double infinity = std::numeric_limits<double>::infinity();
+  // cost[g][r]: the first g groups placed on the first r rows.
+  std::vector<double> cost(static_cast<std::size_t>(groups + 1) * (rows + 1), infinity);
+  const auto at = [&](int g, int r) -> double& { return cost[g * (rows + 1) + r]; };
+  const auto difference = [&](int g, int r) {
+    return std::abs(elevation[order[g]] - radians(sensor.elevation_deg[r]));
+  };
+  for (int r = 0; r <= rows; ++r) at(0, r) = 0.0;
+  for (int g = 1; g <= groups; ++g)
+    for (int r = g; r <= rows; ++r)
+      at(g, r) = std::min(at(g, r - 1), at(g - 1, r - 1) + difference(g - 1, r - 1));
+
+  std::vector<std::int16_t> row_of_group(elevation.size(), kNoRow);
+  for (int g = groups, r = rows; g > 0; --r) {
+    if (r > g && at(g, r) == at(g, r - 1)) continue;
+    row_of_group[order[g - 1]] = static_cast<std::int16_t>(r - 1);
+    --g;
+  }
+  return row_of_group;
+}
 
 std::vector<std::int16_t> assign_rows(const Scan& scan, const std::vector<std::uint8_t>& usable,
                                       const SensorModel& sensor) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/scan.hpp"
@@ -14,5 +15,11 @@ namespace lego_loam_sc {
 /// from the elevation table otherwise. `usable[i]` says whether point i has a finite position.
 std::vector<std::int16_t> assign_rows(const Scan& scan, const std::vector<std::uint8_t>& usable,
                                       const SensorModel& sensor);
+
+/// The row of each ring from its elevation (rad, NaN for a ring without points, whose row is -1):
+/// the assignment to the beams in their order with the least sum of differences, so that a missing
+/// ring shifts no other. Nothing when there are no rings or more of them than beams.
+std::optional<std::vector<std::int16_t>> align_to_beams(const std::vector<double>& elevation,
+                                                        const SensorModel& sensor);
 
 }  // namespace lego_loam_sc
