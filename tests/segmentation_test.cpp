@@ -19,9 +19,9 @@ using Eigen::Vector3d;
 struct Labelled {
   RangeImage image;
   Segmentation segmentation;
-  Pose T_world_lidar;
+  Pose T_world_level;
 
-  Vector3d world(std::size_t i) const { return T_world_lidar * image.points[i].cast<double>(); }
+  Vector3d world(std::size_t i) const { return T_world_level * image.points[i].cast<double>(); }
   bool ground(std::size_t i) const { return segmentation.label[i] == Label::ground; }
 
   // Share of the points for which `which(world position)` holds that are ground.
@@ -42,6 +42,7 @@ Labelled label(const Scene& scene, const SensorModel& sensor, const Pose& T_worl
                double height, const SegmentationSettings& settings = {}) {
   const Scan scan = take_scan(scene, sensor, T_world_lidar, {.noise = 0.005, .seed = 1});
   Labelled result{project(scan, sensor), {}, T_world_lidar};
+  result.T_world_level.linear() = T_world_lidar.linear() * R_base_lidar(sensor).transpose();
   result.segmentation = segment(result.image, sensor, height, settings);
   return result;
 }
@@ -68,10 +69,7 @@ TEST(Ground, ATiltedMountIsTakenOut) {
   sensor.mount_pitch_deg = 15.0;
   Pose at = pose_of(0, 0, kMadeHeight);
   at.linear() = rotation_from_rpy(radians(-8.0), radians(15.0), 0.0);
-  // Towards the rear even rising beams of the tilted sensor look down.
-  SegmentationSettings settings;
-  settings.ground_max_elevation_deg = 15.0;
-  const Labelled l = label(street(), sensor, at, kMadeHeight, settings);
+  const Labelled l = label(street(), sensor, at, kMadeHeight);
   EXPECT_GT(l.ground_share([](const Vector3d& p) {
     return std::abs(p.z()) < 0.03 && p.head<2>().norm() < 20.0;
   }),
@@ -79,8 +77,21 @@ TEST(Ground, ATiltedMountIsTakenOut) {
   EXPECT_LT(l.ground_share([](const Vector3d& p) { return p.z() > 0.7; }), 0.02);
 
   sensor.mount_roll_deg = sensor.mount_pitch_deg = 0.0;  // not told of it, it finds less
-  const Labelled untold = label(street(), sensor, at, kMadeHeight, settings);
+  const Labelled untold = label(street(), sensor, at, kMadeHeight);
   EXPECT_LT(untold.ground_share(on_the_floor), 0.7);
+}
+
+TEST(Ground, ASensorUpsideDownFindsTheGroundAboveItself) {
+  SensorModel sensor = made_sensor();
+  sensor.mount_roll_deg = 180.0;
+  Pose at = pose_of(0, 0, kMadeHeight);
+  at.linear() = R_base_lidar(sensor);
+  const Labelled l = label(street(), sensor, at, kMadeHeight);
+  EXPECT_GT(l.ground_share([](const Vector3d& p) {
+    return std::abs(p.z()) < 0.03 && p.head<2>().norm() < 20.0;
+  }),
+            0.95);
+  EXPECT_LT(l.ground_share([](const Vector3d& p) { return p.z() > 0.7; }), 0.02);
 }
 
 TEST(Ground, AnEightDegreeSlopeUphillIsGround) {

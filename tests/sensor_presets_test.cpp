@@ -13,7 +13,7 @@ namespace {
 // The intensity of a made scan is the row that a point was measured in.
 void expect_right_rows(const RangeImage& image) {
   for (int row = 0; row < image.rows; ++row)
-    for (std::int32_t k = image.row_begin[row]; k < image.row_begin[row + 1]; ++k)
+    for (std::uint32_t k = image.row_begin[row]; k < image.row_begin[row + 1]; ++k)
       ASSERT_EQ(image.intensity[k], row) << "point " << k;
 }
 

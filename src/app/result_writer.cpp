@@ -10,6 +10,7 @@
 #include <thread>
 #include <utility>
 
+#include "core/pose.hpp"
 #include "eval/association.hpp"
 #include "eval/error_report.hpp"
 #include "io/atomic_file.hpp"
@@ -198,12 +199,15 @@ std::string ResultWriter::finish(const Slam& slam, const DatasetFacts& dataset,
   const Resources resources = used_resources();
   const double milliseconds_per_scan =
       scan_count_ > 0 ? 1e3 * resources.cpu_seconds / static_cast<double>(scan_count_) : 0.0;
+  const Eigen::Vector3d mounting = rpy_from_rotation(slam.R_level_lidar());
   nlohmann::ordered_json summary = {
       {"version", LEGO_LOAM_SC_VERSION},
       {"input", facts.input},
       {"method", facts.method},
       {"sensor", facts.sensor},
       {"sensor_height_m", slam.sensor_height()},
+      {"mount_roll_deg", degrees(mounting[0]) + 0.0},  // no minus before a zero
+      {"mount_pitch_deg", degrees(mounting[1]) + 0.0},
       {"scans", scan_count_},
       {"status", statuses_},
       {"key_frames", slam.key_frames().size()},

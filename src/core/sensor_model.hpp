@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,14 +20,20 @@ struct SensorModel {
   double start_azimuth_deg = 180.0;   ///< azimuth (counter-clockwise from x) where a sweep starts
   bool clockwise = true;              ///< seen from above
   bool motion_compensated = false;    ///< points are already moved to the stamp of their scan
-  bool times_from_azimuth = false;    ///< raw sweeps without times: a point's azimuth tells its time
+  bool times_from_azimuth = false;  ///< raw sweeps without times: a point's azimuth tells its time
   double elevation_correction_deg = 0.0;  ///< added to the elevation angle of every point
-  double height = 0.0;      ///< m above the ground, 0 = unknown, then estimated from the scans
-  double mount_roll_deg = 0.0;   ///< mounting angles: R_base_lidar = R_y(pitch) R_x(roll)
+  // Mounting: all zero = unknown, then estimated from the scans. Points are handled in levelled
+  // axes, R_base_lidar = R_y(pitch) R_x(roll).
+  double height = 0.0;  ///< m above the ground, 0 = unknown
+  double mount_roll_deg = 0.0;
   double mount_pitch_deg = 0.0;
 
   int rows() const { return static_cast<int>(elevation_deg.size()); }
+  bool tilted() const { return mount_roll_deg != 0.0 || mount_pitch_deg != 0.0; }
 };
+
+/// Turns the LiDAR's axes level: by the mounting angles.
+Eigen::Matrix3d R_base_lidar(const SensorModel& sensor);
 
 /// The first fault of the model as one sentence that names the field, or nothing.
 std::optional<std::string> validate(const SensorModel& sensor);

@@ -31,8 +31,8 @@ void visit_fields(Sensor& s, Visit&& visit) {
   visit("elevation_correction_deg", s.elevation_correction_deg,
         "added to the elevation angle of every point");
   visit("height", s.height, "m above the ground; 0 = unknown, then estimated from the scans");
-  visit("mount_roll_deg", s.mount_roll_deg, "mounting: R_base_lidar = R_y(pitch) R_x(roll)");
-  visit("mount_pitch_deg", s.mount_pitch_deg, "see above");
+  visit("mount_roll_deg", s.mount_roll_deg, "180 = upside down; all zero = estimated too");
+  visit("mount_pitch_deg", s.mount_pitch_deg, "positive looks down to the front");
 }
 
 // Validation of the ranges is the model's own.

@@ -15,35 +15,45 @@ constexpr float kHeightPerMetre = 0.05f;
 
 struct LevelPoint {
   float across;  // horizontal distance from the sensor, m
-  float z;       // height in the levelled frame, m
+  float z;       // height above the sensor, m
 };
 
-class Leveller {
- public:
-  explicit Leveller(const SensorModel& sensor)
-      : R_base_lidar_(
-            rotation_from_rpy(radians(sensor.mount_roll_deg), radians(sensor.mount_pitch_deg), 0.0)
-                .cast<float>()) {}
-
-  LevelPoint operator()(const Eigen::Vector3f& p) const {
-    const Eigen::Vector3f q = R_base_lidar_ * p;
-    return {std::sqrt(q.x() * q.x() + q.y() * q.y()), q.z()};
-  }
-
- private:
-  Eigen::Matrix3f R_base_lidar_;
-};
+LevelPoint level_point(const Eigen::Vector3f& p) {
+  return {std::sqrt(p.x() * p.x() + p.y() * p.y()), p.z()};
+}
 
 bool is_level(const LevelPoint& a, const LevelPoint& b, float max_tangent) {
   return std::abs(b.z - a.z) <= max_tangent * std::abs(b.across - a.across);
 }
 
-// Rows whose beams can see the ground.
-int ground_rows(const SensorModel& sensor, const SegmentationSettings& settings) {
-  const auto end = std::upper_bound(sensor.elevation_deg.begin(), sensor.elevation_deg.end(),
-                                    settings.ground_max_elevation_deg);
-  return static_cast<int>(end - sensor.elevation_deg.begin());
-}
+// The rows whose beams can see the ground, from the one that looks down most.
+class GroundRows {
+ public:
+  GroundRows(const SensorModel& sensor, const SegmentationSettings& settings)
+      : rows_(sensor.rows()),
+        tilted_(sensor.tilted()),
+        upside_down_(R_base_lidar(sensor)(2, 2) < 0.0),
+        max_tangent_(static_cast<float>(std::tan(radians(settings.ground_max_elevation_deg)))) {
+    const auto end = std::upper_bound(sensor.elevation_deg.begin(), sensor.elevation_deg.end(),
+                                      settings.ground_max_elevation_deg);
+    count_ = tilted_ ? rows_ : static_cast<int>(end - sensor.elevation_deg.begin());
+  }
+
+  int count() const { return count_; }
+  int operator[](int k) const { return upside_down_ ? rows_ - 1 - k : k; }
+
+  // The beam of a tilted sensor looks up on one side and down on the other.
+  bool may_be_ground(const LevelPoint& p) const {
+    return !tilted_ || p.z <= max_tangent_ * p.across;
+  }
+
+ private:
+  int rows_;
+  bool tilted_;
+  bool upside_down_;
+  float max_tangent_;
+  int count_;
+};
 
 // Other points in the pixel of a ground point are ground when they lie at about its range.
 void mark_pixel(const RangeImage& image, std::int32_t nearest, float tolerance,
@@ -72,23 +82,23 @@ struct Column {
 
 void mark_ground(const RangeImage& image, const SensorModel& sensor, double sensor_height,
                  const SegmentationSettings& settings, std::vector<Label>& label) {
-  const Leveller level(sensor);
   const float max_tangent = static_cast<float>(std::tan(radians(settings.ground_slope_deg)));
   const float tolerance = static_cast<float>(settings.ground_height_tolerance);
-  const int rows = ground_rows(sensor, settings);
+  const GroundRows rows(sensor, settings);
 
   // All columns climb together, because the image lies in memory row by row.
   Column start;
   start.ground = {0.0f, -static_cast<float>(sensor_height)};
   start.ground_known = sensor_height > 0.0;
   std::vector<Column> columns(image.columns, start);
-  for (int row = 0; row < rows; ++row) {
+  for (int row = 0; row < rows.count(); ++row) {
     for (int k = 0; k < image.columns; ++k) {
-      const std::int32_t index = image.pixel(row, k);
+      const std::int32_t index = image.pixel(rows[row], k);
       if (index < 0) continue;
       Column& column = columns[k];
       const LevelPoint& previous = column.previous;
-      const LevelPoint point = level(image.points[index]);
+      const LevelPoint point = level_point(image.points[index]);
+      if (!rows.may_be_ground(point)) continue;
       const bool neighbours =
           column.previous_index >= 0 && row - column.previous_row <= settings.ground_max_row_gap;
       if (neighbours && is_level(previous, point, max_tangent)) {
@@ -113,23 +123,22 @@ void mark_ground(const RangeImage& image, const SensorModel& sensor, double sens
 
 std::optional<double> estimate_sensor_height(const RangeImage& image, const SensorModel& sensor,
                                              const SegmentationSettings& settings) {
-  constexpr float kReach = 15.0f;    // m round the vehicle
-  constexpr float kBin = 0.1f;       // m
-  constexpr int kBins = 100;         // down to 10 m below the sensor
-  constexpr int kEnough = 100;       // points in the fullest bin
-  const Leveller level(sensor);
+  constexpr float kReach = 15.0f;  // m round the vehicle
+  constexpr float kBin = 0.1f;     // m
+  constexpr int kBins = 100;       // down to 10 m below the sensor
+  constexpr int kEnough = 100;     // points in the fullest bin
   const float max_tangent = static_cast<float>(std::tan(radians(settings.ground_slope_deg)));
-  const int rows = ground_rows(sensor, settings);
+  const GroundRows rows(sensor, settings);
 
   std::array<int, kBins> count{};
   std::array<double, kBins> depth_sum{};
   for (int column = 0; column < image.columns; ++column) {
-    for (int row = 1; row < rows; ++row) {
-      const std::int32_t below = image.pixel(row - 1, column);
-      const std::int32_t index = image.pixel(row, column);
+    for (int row = 1; row < rows.count(); ++row) {
+      const std::int32_t below = image.pixel(rows[row - 1], column);
+      const std::int32_t index = image.pixel(rows[row], column);
       if (below < 0 || index < 0) continue;
-      const LevelPoint a = level(image.points[below]);
-      const LevelPoint b = level(image.points[index]);
+      const LevelPoint a = level_point(image.points[below]);
+      const LevelPoint b = level_point(image.points[index]);
       if (b.across > kReach || b.z >= 0.0f || !is_level(a, b, max_tangent)) continue;
       const int bin = static_cast<int>(-b.z / kBin);
       if (bin >= kBins) continue;

@@ -13,7 +13,7 @@ namespace lego_loam_sc {
 
 /// Sets the label of ground points. Column by column upwards: two rows that see a surface with a
 /// slope below the limit are ground when the lower one continues the ground of that column or lies
-/// near the plane that the sensor stands on. The mounting angles are taken out first.
+/// near the plane that the sensor stands on.
 void mark_ground(const RangeImage& image, const SensorModel& sensor, double sensor_height,
                  const SegmentationSettings& settings, std::vector<Label>& label);
 

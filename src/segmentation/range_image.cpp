@@ -111,6 +111,7 @@ RangeImage project(const Scan& scan, const SensorModel& sensor) {
 
   const float sine = static_cast<float>(std::sin(radians(sensor.elevation_correction_deg)));
   const float cosine = static_cast<float>(std::cos(radians(sensor.elevation_correction_deg)));
+  const Eigen::Matrix3f R_level_lidar = R_base_lidar(sensor).cast<float>();
   const auto by_azimuth = [&](std::uint32_t a, std::uint32_t b) {
     return std::pair(azimuth[a], a) < std::pair(azimuth[b], b);
   };
@@ -123,6 +124,7 @@ RangeImage project(const Scan& scan, const SensorModel& sensor) {
       for (std::uint32_t k = begin[p]; k < begin[p + 1]; ++k) {
         const Eigen::Vector3f& point = scan.points[source[k]];
         image.points[k] = sine == 0.0f ? point : raise(point, sine, cosine);
+        if (sensor.tilted()) image.points[k] = R_level_lidar * image.points[k];
         image.range[k] = point.norm();
         image.column[k] = static_cast<std::uint16_t>(c);
         if (!scan.intensity.empty()) image.intensity[k] = scan.intensity[source[k]];

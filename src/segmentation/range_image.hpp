@@ -19,7 +19,8 @@ struct RangeImage {
   int columns = 0;
 
   std::vector<std::uint32_t> row_begin;  ///< rows + 1; row r is [row_begin[r], row_begin[r + 1])
-  std::vector<Eigen::Vector3f> points;   ///< LiDAR frame at the time of the point, m
+  std::vector<Eigen::Vector3f> points;   ///< at the time of the point, m; origin and axes of the
+                                         ///< LiDAR, but turned level by its mounting angles
   std::vector<float> range;              ///< m
   std::vector<float> intensity;          ///< zeros when the sensor gives none
   std::vector<float> age;                ///< s after the reference time; all zero when the scan

@@ -5,6 +5,7 @@
 
 #include "features/features.hpp"
 #include "segmentation/ground.hpp"
+#include "segmentation/mounting.hpp"
 #include "segmentation/range_image.hpp"
 #include "segmentation/segmentation.hpp"
 #include "slam/make_key_frame.hpp"
@@ -12,21 +13,24 @@
 namespace lego_loam_sc {
 namespace {
 
+// In levelled axes.
 struct Described {
   KeyFrame key_frame;
   ScanContext context;
+  Eigen::Matrix3d R_level_lidar;
 };
 
-Described describe(const Scan& scan, const SensorModel& sensor, const Settings& settings) {
-  const RangeImage image = project(scan, sensor);
-  double height = sensor.height;
-  if (height == 0.0)
-    height = estimate_sensor_height(image, sensor, settings.segmentation).value_or(0.0);
-  const Segmentation segmentation = segment(image, sensor, height, settings.segmentation);
+Described describe(const Scan& scan, SensorModel sensor, const Settings& settings) {
+  RangeImage image = project(scan, sensor);
+  if (estimate_tilt(image, sensor)) image = project(scan, sensor);
+  if (sensor.height == 0.0)
+    sensor.height = estimate_sensor_height(image, sensor, settings.segmentation).value_or(0.0);
+  const Segmentation segmentation = segment(image, sensor, sensor.height, settings.segmentation);
   const Features features = extract_features(image, segmentation, sensor, settings.features);
   return {make_key_frame(image, segmentation, features, image.points, 0.0,
                          settings.key_frames.point_spacing),
-          make_scan_context(image.points, height, settings.loop.scan_context)};
+          make_scan_context(image.points, sensor.height, settings.loop.scan_context),
+          R_base_lidar(sensor)};
 }
 
 }  // namespace
@@ -42,8 +46,10 @@ ScanMatch match_scans(const Scan& a, const Scan& b, const SensorModel& sensor,
   const std::array<PlacedKeyFrame, 1> placed_query{{{&query.key_frame, Pose::Identity()}}};
   std::array<Pose, 1> guess{Pose::Identity()};
   guess[0].linear() = rotation_from_rpy(0.0, 0.0, result.scan_context.yaw);
-  result.verification = verify_loop(placed_query, placed_match, guess, sensor.range_noise,
-                                    settings.loop.verifier);
+  result.verification =
+      verify_loop(placed_query, placed_match, guess, sensor.range_noise, settings.loop.verifier);
+  result.verification.T_match_query.prerotate(match.R_level_lidar.transpose())
+      .rotate(query.R_level_lidar);
   if (result.verification.verdict == Verdict::accepted &&
       !(result.scan_context.distance < settings.loop.scan_context.threshold))
     result.verification.verdict = Verdict::no_candidate;

@@ -12,6 +12,7 @@
 #include "odometry/deskew.hpp"
 #include "odometry/odometry.hpp"
 #include "segmentation/ground.hpp"
+#include "segmentation/mounting.hpp"
 #include "segmentation/range_image.hpp"
 #include "segmentation/segmentation.hpp"
 #include "slam/edge_covariance.hpp"
@@ -69,9 +70,10 @@ struct Slam::State {
   void add_key_frame(KeyFrame key_frame, const MapMatch& match, ScanContext context);
   void close_loops(ScanReport& report);
   void rebuild_local_map();
+  Pose of_lidar(Pose T_frame_level) const;
 
   SensorModel given_sensor;
-  SensorModel sensor;  // the same with the elevations corrected by what was found on the way
+  SensorModel sensor;  // the same with the tilt and the elevations that were found on the way
   Settings settings;
   tbb::task_arena arena;
 
@@ -98,7 +100,7 @@ ScanReport Slam::State::process(const Scan& scan) {
   ScanReport report;
   report.index = scans++;
   report.stamp_ns = scan.stamp_ns;
-  report.T_odom_lidar = previous.T_odom_lidar;
+  report.T_odom_lidar = of_lidar(previous.T_odom_lidar);
   const bool first = live.empty();
   if (!first && scan.stamp_ns <= stamp_ns) {
     report.status = Status::out_of_order;
@@ -107,7 +109,8 @@ ScanReport Slam::State::process(const Scan& scan) {
   StageTimer timer(report.milliseconds);
 
   timer.start(Stage::projection);
-  const RangeImage image = project(scan, sensor);
+  RangeImage image = project(scan, sensor);
+  if (mapper.empty() && estimate_tilt(image, sensor)) image = project(scan, sensor);
   report.points = image.size();
   if (height == 0.0)
     height = estimate_sensor_height(image, sensor, settings.segmentation).value_or(0.0);
@@ -174,10 +177,10 @@ ScanReport Slam::State::process(const Scan& scan) {
     T_map_lidar = graph.poses().back();
   }
 
-  report.T_odom_lidar = current.T_odom_lidar * T_reference_stamp;
+  report.T_odom_lidar = of_lidar(current.T_odom_lidar * T_reference_stamp);
   live.push_back({stamp_ns, report.T_odom_lidar});
   fusion.add(stamp_ns, static_cast<int>(key_frames.size()) - 1,
-             graph.poses().back().inverse() * T_map_lidar * T_reference_stamp);
+             of_lidar(graph.poses().back().inverse() * T_map_lidar * T_reference_stamp));
   return report;
 }
 
@@ -216,7 +219,8 @@ MapMatch Slam::State::refine(const Features& features, const Motion& motion, dou
       const MapMatch again = refine_from(predicted, false);
       if (again.matched) match = again;
     }
-    report.elevation_bias_deg = degrees(mapper.elevation_bias());
+    // It is measured along the vertical axis, about which only an upright sensor spins.
+    report.elevation_bias_deg = sensor.tilted() ? 0.0 : degrees(mapper.elevation_bias());
     sensor.elevation_correction_deg =
         given_sensor.elevation_correction_deg + report.elevation_bias_deg;
     report.map_points = match.points;
@@ -282,6 +286,12 @@ void Slam::State::rebuild_local_map() {
   }
 }
 
+// All of the above has the LiDAR's axes turned level; poses of the LiDAR leave.
+Pose Slam::State::of_lidar(Pose T_frame_level) const {
+  if (sensor.tilted()) T_frame_level.rotate(R_base_lidar(sensor));
+  return T_frame_level;
+}
+
 Slam::Slam(const SensorModel& sensor, const Settings& settings, int threads)
     : state_(std::make_unique<State>(sensor, settings, threads)) {}
 Slam::~Slam() = default;
@@ -324,5 +334,6 @@ Trajectory Slam::trajectory() const { return state_->fusion.fuse(state_->graph.p
 const std::vector<KeyFrame>& Slam::key_frames() const { return state_->key_frames; }
 const PoseGraph& Slam::graph() const { return state_->graph; }
 double Slam::sensor_height() const { return state_->height; }
+Eigen::Matrix3d Slam::R_level_lidar() const { return R_base_lidar(state_->sensor); }
 
 }  // namespace lego_loam_sc

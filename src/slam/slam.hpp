@@ -16,8 +16,10 @@
 namespace lego_loam_sc {
 
 /// LeGO-LOAM-SC: takes the scans of one LiDAR in the order of time and keeps the trajectory, the
-/// key frames and the pose graph. The map frame is the sensor's frame at the first scan. The same
-/// scans and settings give the same results to the bit, for any number of threads.
+/// key frames and the pose graph. The map frame is the sensor's frame at the first scan, turned
+/// level when the sensor is tilted; poses of scans are those of the LiDAR in it, key frames and the
+/// graph have the LiDAR's axes turned level. The same scans and settings give the same results to
+/// the bit, for any number of threads.
 class Slam {
  public:
   /// `threads` bounds all threads that work is spread over. Throws std::invalid_argument when the
@@ -41,6 +43,9 @@ class Slam {
   /// The sensor's height above the ground, m: as the sensor model says or as estimated; 0 while
   /// unknown.
   double sensor_height() const;
+
+  /// Turns the LiDAR's axes level: by the mounting angles of the sensor model or as estimated.
+  Eigen::Matrix3d R_level_lidar() const;
 
  private:
   struct State;
