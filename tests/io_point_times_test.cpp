@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <fstream>
 #include <limits>
+#include <map>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -30,6 +34,49 @@ TEST(PointTimes, TheSpanDecidesTheUnit) {
   EXPECT_EQ(interpret({0, 5e4, 1e5}).offset_ns, expected);
   EXPECT_EQ(interpret({0, 5e7, 1e8}).offset_ns, expected);
   EXPECT_EQ(interpret({0, 5e7, 1e8}).stamp_ns, kStamp);
+}
+
+// The cases that the reader of recordings is tested with too.
+TEST(PointTimes, FollowTheRulesThatBothReadersShare) {
+  const std::map<std::string, NumberType> types = {
+      {"uint16", NumberType::uint16},   {"uint32", NumberType::uint32},
+      {"int64", NumberType::int64},     {"uint64", NumberType::uint64},
+      {"float32", NumberType::float32}, {"float64", NumberType::float64}};
+  const std::vector<std::string> units = {"s", "ms", "us", "ns"};
+  std::ifstream file(std::string(LEGO_LOAM_SC_SOURCE) + "/tests/point_times_cases.txt");
+  int cases = 0;
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("#")) continue;
+    SCOPED_TRACE(line);
+    // Columns are two blanks apart, the numbers of one column are one.
+    std::vector<std::string> columns;
+    for (std::size_t at = 0; at != line.npos; at = line.find_first_not_of(' ', at)) {
+      const std::size_t end = line.find("  ", at);
+      columns.push_back(line.substr(at, end == line.npos ? end : end - at));
+      at = end;
+    }
+    ASSERT_EQ(columns.size(), 5U);
+    StampHint hint{std::stoll(columns[1]), true, {}};
+    const auto unit = std::find(units.begin(), units.end(), columns[2]);
+    if (unit != units.end()) hint.unit = static_cast<TimeUnit>(unit - units.begin());
+    std::vector<double> times;
+    std::istringstream words(columns[3]);
+    for (std::string word; words >> word;) times.push_back(std::stod(word));
+    const auto interpreted = [&] { return interpret(times, hint, types.at(columns[0])); };
+    ++cases;
+    if (columns[4] == "refused") {
+      EXPECT_THROW(interpreted(), InputError);
+      continue;
+    }
+    const Offsets found = interpreted().offset_ns;
+    Offsets expected;
+    std::istringstream numbers(columns[4]);
+    for (std::int32_t number; numbers >> number;) expected.push_back(number);
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i)
+      EXPECT_NEAR(found[i], expected[i], 256);  // what a double of nanoseconds since 1970 resolves
+  }
+  EXPECT_GT(cases, 25);
 }
 
 TEST(PointTimes, RelativeTimesMayLieBeforeTheStamp) {
@@ -86,8 +133,10 @@ TEST(PointTimes, TheUnitCanBeGiven) {
 
 TEST(PointTimes, SaysWhatWasDecided) {
   EXPECT_EQ(interpret({0, 1e5}).decision,
-            "the times of the points are microseconds from the stamp of the scan, a sweep lasts "
-            "100.0 ms");
+            "the times of the points are microseconds from the stamp of the scan; a sweep runs "
+            "from 0.0 to 100.0 ms after it");
+  EXPECT_TRUE(
+      interpret({-0.1, 0}).decision.ends_with("a sweep runs from -100.0 to 0.0 ms after it"));
 }
 
 TEST(PointTimes, NoNumbersOverflow) {

@@ -98,6 +98,17 @@ TEST(ScanSource, TheUnitOfAFullSweepHoldsForSparseOnes) {
   EXPECT_NE(source->notes()[1].find("microseconds"), std::string::npos);
 }
 
+TEST(ScanSource, AScanThatIsTooShortWaitsForTheUnitOfTheNext) {
+  const TemporaryFolder folder;
+  folder.write("0.pcd", pcd_of("0", "4000"));
+  folder.write("1.pcd", "no point file");
+  folder.write("2.pcd", pcd_of("100", "100100"));
+  const auto source = open_scans(folder.path().string());
+  EXPECT_EQ(source->next()->offset_ns, (std::vector<std::int32_t>{0, 4'000'000}));
+  EXPECT_THROW(source->next(), InputError);
+  EXPECT_EQ(source->next()->offset_ns, (std::vector<std::int32_t>{100'000, 100'100'000}));
+}
+
 TEST(ScanSource, AbsoluteTimesOfThePointsGiveTheStampWithoutTimesFile) {
   const TemporaryFolder folder;
   folder.write("0.pcd", pcd_of("1600000000.5", "1600000000.625"));

@@ -48,6 +48,25 @@ DRIVERS = {
         ("timestamp", lambda share: SECONDS + share * 0.1),
         False,
     ),
+    "hesai_packed": (
+        layout(26, **XYZ, intensity=("<f4", 12), ring=("<u2", 16), timestamp=("<f8", 18)),
+        ("timestamp", lambda share: SECONDS + share * 0.1),
+        True,
+    ),
+    "ouster_before_2020": (
+        layout(
+            48,
+            **XYZ,
+            intensity=("<f4", 16),
+            t=("<u4", 20),
+            reflectivity=("<u2", 24),
+            ring=("u1", 26),
+            noise=("<u2", 28),
+            range=("<u4", 32),
+        ),
+        ("t", lambda share: share * 1e8),
+        True,
+    ),
     "robosense": (
         layout(26, **XYZ, intensity=("<f4", 12), ring=("<u2", 16), timestamp=("<f8", 18)),
         ("timestamp", lambda share: SECONDS - 0.1 + share * 0.1),

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The meaning of the times of points; the same cases as for PCD and PLY files."""
 
+import re
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -14,6 +17,31 @@ def offsets(times, stamp_ns=STAMP, unit=None, dtype=np.float64):
     array = np.array(times, dtype)
     times = interpret(array, np.ones(array.shape, bool), stamp_ns, unit)
     return None if times is None else times.offset_ns.tolist()
+
+
+def shared_cases():
+    """Those that the reader of PCD and PLY files is tested with too."""
+    file = Path(__file__).parents[2] / "tests/point_times_cases.txt"
+    for line in file.read_text().splitlines():
+        if not line.startswith("#"):
+            yield re.split("  +", line.strip())
+
+
+@pytest.mark.parametrize(("dtype", "stamp_ns", "unit", "times", "expected"), list(shared_cases()))
+def test_the_rules_are_those_of_point_files(dtype, stamp_ns, unit, times, expected):
+    # A whole number beyond 2^53 must not pass through a float.
+    numbers = [float(word) if dtype.startswith("f") else int(word) for word in times.split()]
+
+    def found():
+        return offsets(numbers, int(stamp_ns), None if unit == "-" else unit, dtype)
+
+    if expected == "refused":
+        with pytest.raises(InputError):
+            found()
+    elif expected == "none":
+        assert found() is None
+    else:
+        np.testing.assert_allclose(found(), [int(word) for word in expected.split()], atol=256)
 
 
 @pytest.mark.parametrize(

@@ -116,9 +116,12 @@ PointTimes interpret_point_times(std::span<const double> times, NumberType type,
     if (std::isfinite(times[i]))  // the difference before the scale: it keeps the file's accuracy
       result.offset_ns[i] =
           static_cast<std::int32_t>(to_nanoseconds((times[i] - origin.time) * scale));
+  const auto milliseconds = [&](double time) {
+    return to_fixed((time - origin.time) * scale * 1e3, 1);
+  };
   result.decision = "the times of the points are " + std::string(kUnitNames[unit]) + " " +
-                    origin.description + ", a sweep lasts " +
-                    to_fixed((limits.latest - limits.earliest) * scale * 1e3, 1) + " ms";
+                    origin.description + "; a sweep runs from " + milliseconds(limits.earliest) +
+                    " to " + milliseconds(limits.latest) + " ms after it";
   return result;
 }
 

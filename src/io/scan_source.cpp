@@ -24,6 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::int64_t kAssumedPeriodNs = 100'000'000;
+constexpr std::size_t kTellingScans = 10;  // at most, to tell the unit of times by
 
 bool is_scan(const fs::path& path) {
   return path.extension() == ".bin" || path.extension() == ".pcd" || path.extension() == ".ply";
@@ -61,8 +62,8 @@ class FileSource : public ScanSource {
       scan.stamp_ns = hint.stamp_ns;
       return scan;
     }
-    RawScan raw = file.extension() == ".pcd" ? read_pcd(file) : read_ply(file);
-    PointTimes times = interpret_point_times(raw.time, raw.time_type, hint, file.string());
+    RawScan raw = read_points(file);
+    PointTimes times = interpret(raw, hint, file);
     raw.scan.stamp_ns = times.stamp_ns;
     raw.scan.offset_ns = std::move(times.offset_ns);
     // One driver wrote all scans: what a full sweep decided holds for sparse ones too.
@@ -71,6 +72,34 @@ class FileSource : public ScanSource {
       notes_.push_back(std::move(times.decision));
     }
     return std::move(raw.scan);
+  }
+
+  static RawScan read_points(const fs::path& file) {
+    return file.extension() == ".pcd" ? read_pcd(file) : read_ply(file);
+  }
+
+  PointTimes interpret(const RawScan& raw, StampHint hint, const fs::path& file) const {
+    try {
+      return interpret_point_times(raw.time, raw.time_type, hint, file.string());
+    } catch (const InputError&) {
+      if (!hint.unit) hint.unit = unit_of_next_files(hint);
+      if (!hint.unit) throw;
+    }
+    return interpret_point_times(raw.time, raw.time_type, hint, file.string());
+  }
+
+  // The first scans may be too short to tell the unit by.
+  std::optional<TimeUnit> unit_of_next_files(const StampHint& hint) const {
+    const std::size_t end = std::min(next_ + kTellingScans - 1, files_.size());
+    for (std::size_t index = next_; index < end; ++index) {
+      try {
+        const RawScan raw = read_points(files_[index]);
+        const PointTimes times = interpret_point_times(raw.time, raw.time_type, hint, "");
+        if (times.unit) return times.unit;
+      } catch (const InputError&) {
+      }  // it is reported when its turn comes
+    }
+    return std::nullopt;
   }
 
   std::vector<fs::path> files_;
