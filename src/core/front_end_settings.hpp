@@ -180,7 +180,7 @@ struct MappingSettings {
 };
 
 struct KeyFrameSettings {
-  double distance = 1.0;
+  double distance = 2.0;
   double rotation_deg = 10.0;
   double point_spacing = 0.3;
 

@@ -32,6 +32,9 @@ struct SensorModel {
   bool tilted() const { return mount_roll_deg != 0.0 || mount_pitch_deg != 0.0; }
 };
 
+/// rad; median angle from one row to the next, 0 of a single row.
+double row_spacing(const SensorModel& sensor);
+
 /// Turns the LiDAR's axes level: by the mounting angles.
 Eigen::Matrix3d R_base_lidar(const SensorModel& sensor);
 

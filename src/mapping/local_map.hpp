@@ -14,8 +14,10 @@ namespace lego_loam_sc {
 /// each of several voxel sizes. Serves the mapper and the verifier of loops.
 class LocalMap {
  public:
-  /// The finest voxels measure `voxel_size` (m), each of the `levels` twice the one before.
-  LocalMap(double voxel_size, int levels, double planarity);
+  /// The finest voxels measure `voxel_size` (m), each of the `levels` twice the one before. Where the rows of
+  /// the sensor, `row_spacing` (rad) apart, are farther from each other than a block is wide, no surface
+  /// can be seen in it: such planar and edge points go to the coarser levels only. 0 = to all.
+  LocalMap(double voxel_size, int levels, double planarity, double row_spacing = 0.0);
 
   /// Adds the large sets and the scattered points.
   void insert(const Features& features, const Pose& T_map_points);
@@ -33,6 +35,8 @@ class LocalMap {
   std::size_t size() const;
 
  private:
+  std::vector<double> reach_;       // m, to which each level takes points of planes and lines
+  std::vector<double> everywhere_;  // the same without a limit
   std::vector<SurfaceMap> planes_;  // finest first
   std::vector<SurfaceMap> lines_;
   std::vector<SurfaceMap> scattered_;

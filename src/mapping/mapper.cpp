@@ -162,10 +162,10 @@ double weighted_rmse(const std::vector<Correspondence>& correspondences, const P
 
 }  // namespace
 
-Mapper::Mapper(const MappingSettings& settings, double range_noise)
+Mapper::Mapper(const MappingSettings& settings, double range_noise, double row_spacing)
     : settings_(settings),
       range_noise_(std::max(range_noise, 1e-3)),
-      map_(settings.voxel_size, settings.levels, settings.planarity) {}
+      map_(settings.voxel_size, settings.levels, settings.planarity, row_spacing) {}
 
 MapMatch Mapper::refine(const Features& features, const ScanGuess& guess) {
   MapMatch match;

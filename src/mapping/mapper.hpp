@@ -37,8 +37,8 @@ struct ScanGuess {
 /// Scan-to-map refinement, paper 2.3 (4).
 class Mapper {
  public:
-  /// `range_noise` in m, one sigma.
-  Mapper(const MappingSettings& settings, double range_noise);
+  /// `range_noise` in m, one sigma; `row_spacing` in rad, see LocalMap.
+  Mapper(const MappingSettings& settings, double range_noise, double row_spacing = 0.0);
 
   /// Matches the large feature sets with the map. The motion within the sweep is estimated with the
   /// pose; the motion since the previous scan is what is known of it beforehand.

@@ -58,7 +58,7 @@ struct Slam::State {
         arena(std::max(threads, 1)),
         height(sensor.height),
         odometry(settings.odometry, sensor.range_noise),
-        mapper(settings.mapping, sensor.range_noise),
+        mapper(settings.mapping, sensor.range_noise, row_spacing(sensor)),
         loop_closer(settings.loop, settings.graph, sensor.range_noise),
         graph(settings.graph) {}
 
@@ -134,6 +134,11 @@ ScanReport Slam::State::process(const Scan& scan) {
       first ? sensor.period
             : std::max(seconds_between(previous.reference_ns, image.reference_ns), 1e-3);
 
+  // The map begins at the first scan's stamp; how it moved by then is only known when it is done again.
+  const double stamp_age = seconds_between(image.reference_ns, scan.stamp_ns);
+  if (first)
+    previous.T_map_lidar = previous.T_odom_lidar = extrapolate(twist, -(seconds + stamp_age));
+
   timer.start(Stage::odometry);
   const Motion motion = predict_and_match(features, seconds, report);
 
@@ -146,7 +151,6 @@ ScanReport Slam::State::process(const Scan& scan) {
                  normalized(previous.T_odom_lidar * T_previous_current), twist};
   stamp_ns = scan.stamp_ns;
   const bool good = report.status <= Status::odometry_only;
-  const double stamp_age = seconds_between(image.reference_ns, stamp_ns);
   Pose T_reference_stamp = extrapolate(twist, stamp_age);
   Features features_deskewed;
   if (good) {
