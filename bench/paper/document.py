@@ -1,19 +1,16 @@
 """Fills document_text.md and writes it as docs/paper.md."""
 
-import os
 import pathlib
-import platform
-import textwrap
 
 import agreement
 import goals
 import published
 import solve
 import tables
+from machine import processor
+from markdown_page import filled
 
 HERE = pathlib.Path(__file__).resolve().parent
-
-WIDTH = 120
 
 MADE_CITY = (
     "`kitti00` is made: a city around {route}, with traffic, seen by an HDL-64E whose beams, ranges"
@@ -24,14 +21,6 @@ GIVEN_ROUTE = "the poses given with `--route`"
 REAL_CITY = "`kitti00` is the real sequence."
 AT_ONCE = "The four methods read one stream at the same time and share the machine."
 IN_TURN = "The four methods ran one after the other."
-
-
-def processor():
-    model = platform.machine()
-    for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines():
-        if line.startswith("model name"):
-            model = line.split(":", 1)[1].strip()
-    return f"{model} with {os.cpu_count()} cores"
 
 
 def programs(worlds):
@@ -63,13 +52,6 @@ def kitti_parts(world):
     return {"kitti00": MADE_CITY.format(route=route), "timing": f"{AT_ONCE} {length}"}
 
 
-def wrapped(paragraph):
-    """Prose, in lines of equal width; tables, lists, code and headings stay as they are."""
-    if paragraph.startswith(("|", "-", "```", "#", "!")):
-        return paragraph
-    return textwrap.fill(" ".join(paragraph.split()), WIDTH, break_on_hyphens=False)
-
-
 def write(worlds, solve_times, path):
     scenes = [worlds["parking1"], worlds["parking2"]]
     parts = {
@@ -86,9 +68,7 @@ def write(worlds, solve_times, path):
         **kitti_parts(worlds["kitti00"]),
     }
     text = (HERE / "document_text.md").read_text()
-    for name, part in parts.items():
-        text = text.replace(f"<!-- {name} -->", part)
-    text = "\n\n".join(wrapped(paragraph) for paragraph in text.split("\n\n"))
+    text = filled(text, parts)
     text = text.replace("<!-- notes -->", (HERE / "notes.md").read_text().strip())
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(text)

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from tables import table
+from markdown_page import table
 from worlds import OURS
 
 REACHED, ENOUGH, MISSED, NOT_RUN = "goal reached", "must reached", "**missed**", "not run"

@@ -4,14 +4,10 @@ import math
 
 import published
 import style
+from markdown_page import fixed, table
 from worlds import OURS
 
 SCENES = {"parking1": "#1", "parking2": "#2"}
-
-
-def table(header, rows):
-    lines = [f"| {' | '.join(header)} |", f"|{'|'.join('---' for _ in header)}|"]
-    return "\n".join(lines + [f"| {' | '.join(row)} |" for row in rows])
 
 
 def paper(method):
@@ -20,13 +16,6 @@ def paper(method):
 
 def ours(method):
     return f"**`{method}`**" if method == OURS else f"`{method}`"
-
-
-def fixed(values, digits):
-    """Texts; never -0.0, and a dash for what could not be measured."""
-    return [
-        "–" if math.isnan(value) else f"{round(value, digits) + 0.0:.{digits}f}" for value in values
-    ]
 
 
 def lengths(world):

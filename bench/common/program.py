@@ -28,6 +28,13 @@ def version():
     return f"{call('--version').strip()} ({digest[:12]})"
 
 
+def commit():
+    """The checked out commit, with a plus when files differ from it."""
+    git = ["git", "-C", ROOT, "describe", "--always", "--exclude=*", "--dirty=+"]
+    result = subprocess.run(git, text=True, capture_output=True)
+    return result.stdout.strip() or "unknown"
+
+
 def evaluate(truth, estimate):
     """What `lego-loam-sc evaluate --json` says about one estimate."""
     return json.loads(call("evaluate", truth, estimate, "--json"))[0]
