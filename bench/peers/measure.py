@@ -2,6 +2,7 @@
 
 import dataclasses
 import os
+import pathlib
 import subprocess
 import time
 
@@ -11,10 +12,19 @@ class Usage:
     cpu_seconds: float  # user and system, of all threads
     wall_seconds: float
     peak_mib: float  # of the resident set
+    others: float  # share of the machine's CPU time that other processes had meanwhile
 
 
 class ProcessError(Exception):
     """What a process printed before it failed."""
+
+
+def busy_seconds():
+    """CPU time of all processes since the machine's start, and that of the hosts of the machine."""
+    user, nice, system, _, _, *interrupts_and_stolen = [
+        int(ticks) for ticks in pathlib.Path("/proc/stat").read_text().split("\n")[0].split()[1:9]
+    ]
+    return (user + nice + system + sum(interrupts_and_stolen)) / os.sysconf("SC_CLK_TCK")
 
 
 def run(command, threads, log):
@@ -25,7 +35,7 @@ def run(command, threads, log):
     """
     cores = sorted(os.sched_getaffinity(0))[:threads]
     with log.open("w") as output:
-        begin = time.monotonic()
+        begin, busy = time.monotonic(), busy_seconds()
         process = subprocess.Popen(
             [str(word) for word in command],
             stdin=subprocess.DEVNULL,
@@ -34,8 +44,10 @@ def run(command, threads, log):
             preexec_fn=lambda: os.sched_setaffinity(0, cores),
         )
         _, status, usage = os.wait4(process.pid, 0)
-        wall = time.monotonic() - begin
+        wall, busy = time.monotonic() - begin, busy_seconds() - busy
     code = process.returncode = os.waitstatus_to_exitcode(status)
     if code != 0:
         raise ProcessError(f"exit code {code}: {log.read_text()[-2000:].strip()}")
-    return Usage(usage.ru_utime + usage.ru_stime, wall, usage.ru_maxrss / 1024)
+    cpu = usage.ru_utime + usage.ru_stime
+    others = max(0.0, busy - cpu) / (wall * os.cpu_count())
+    return Usage(cpu, wall, usage.ru_maxrss / 1024, others)

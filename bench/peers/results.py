@@ -30,6 +30,11 @@ class Result:
     def peak_mib(self):
         return self.record["peak_mib"]
 
+    @property
+    def others(self):
+        """Share of the machine's CPU time that other processes had during the run, percent."""
+        return 100.0 * self.record["others"]
+
     def error(self, *keys):
         value = self.record["errors"]
         for key in keys:

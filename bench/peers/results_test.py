@@ -21,6 +21,7 @@ class MadeStore:
                 "start_cpu_seconds": 2.0,
                 "peak_mib": 100.0,
                 "wall_seconds": 1.0,
+                "others": 0.0,
                 "errors": {"ate_m": {"rmse": a}} if a else None,
             }
             for name, a, c in zip(names, ate, cpu)

@@ -1,5 +1,6 @@
 """Runs what is missing and keeps what came out, one small folder for each run."""
 
+import dataclasses
 import hashlib
 import json
 import pathlib
@@ -138,10 +139,8 @@ def run(store, recording, scans, system, threads, scratch):
         "scans_of": store.scans(recording)["fingerprint"],
         "commit": program.commit(),
         "scans": len(poses.stamps),
-        "cpu_seconds": usage.cpu_seconds,
+        **dataclasses.asdict(usage),
         "start_cpu_seconds": process["start_cpu_seconds"],
-        "wall_seconds": usage.wall_seconds,
-        "peak_mib": usage.peak_mib,
         "errors": errors(store.truth(recording), poses, scratch),
     }
     (kept / RECORD).write_text(json.dumps(record, indent=2) + "\n")

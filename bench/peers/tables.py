@@ -29,14 +29,15 @@ def ratio(peer, ours, value):
 def absolute(one):
     """All figures of one input."""
     header = ["", "CPU (ms)", "wall, 1 thread (ms)", "wall, 2 threads (ms)", "memory (MiB)"]
-    header += ["ATE RMSE (m)", "ATE maximum (m)", "RPE (m)", "t_rel (%)"]
+    header += ["ATE RMSE (m)", "ATE maximum (m)", "RPE (m)", "t_rel (%)", "others (%)"]
     rows = []
     for name in SYSTEMS:
         run, both = one.main.get(name), one.runs[2].get(name)
         if run is None:
             continue
         walls = fixed((run.wall_ms, both.wall_ms if both else math.nan), 1)
-        figures = fixed((run.ate, run.ate_max), 3) + fixed((run.rpe,), 4) + fixed((run.t_rel,), 2)
+        figures = fixed((run.ate, run.ate_max, run.rpe), 4) + fixed((run.t_rel,), 2)
+        figures += fixed((run.others,), 0)
         title = f"**{TITLES[name]}**" if name == OURS else TITLES[name]
         rows.append([title, f"{run.cpu_ms:.1f}", *walls, f"{run.peak_mib:.0f}", *figures])
     return table(header, rows)
