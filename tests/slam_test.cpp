@@ -178,6 +178,46 @@ TEST(Slam, ARoundThroughTheHallStaysWithinCentimetresOfTheTruthAndClosesItsLoop)
   }
 }
 
+TEST(Slam, ALoopDetectorOfOnesOwnIsAskedAndItsCandidatesAreVerified) {
+  const std::vector<Scan> scans = drive(105, 5.0);
+  Settings settings = with_short_loops();
+  settings.loop.scan_context.enabled = false;
+  settings.loop.radius_search.enabled = false;
+  // Gives a key frame of the first round, wherever the query is.
+  const LoopDetector detector = [](const LoopQuery& query) {
+    EXPECT_EQ(query.key_frames.size(), query.T_map_key.size());
+    EXPECT_GT(query.eligible, 0);
+    LoopCandidate candidate;
+    candidate.match = query.eligible - 1;
+    return std::vector{candidate};
+  };
+  Slam slam(made_sensor(900), settings, 1, detector);
+  int accepted = 0, refused = 0;
+  for (const Scan& scan : scans) {
+    for (const LoopReport& loop : slam.process(scan).loops) {
+      EXPECT_EQ(loop.candidate.detector, LoopCandidate::Detector::custom);
+      EXPECT_LT(loop.match_scan, loop.query_scan);
+      (loop.verification.verdict == Verdict::accepted ? accepted : refused)++;
+    }
+  }
+  EXPECT_GT(accepted + refused, 0);
+  EXPECT_EQ(slam.graph().loop_edges().size(), static_cast<std::size_t>(accepted));
+}
+
+TEST(Slam, AKeyFrameThatIsNotEligibleIsRefusedByName) {
+  const std::vector<Scan> scans = drive(85, 6.5);
+  const LoopDetector detector = [](const LoopQuery& query) {
+    LoopCandidate candidate;
+    candidate.match = query.eligible;
+    return std::vector{candidate};
+  };
+  Slam slam(made_sensor(900), with_short_loops(), 1, detector);
+  const auto run = [&] {
+    for (const Scan& scan : scans) slam.process(scan);
+  };
+  EXPECT_THROW(run(), std::invalid_argument);
+}
+
 TEST(Slam, TwoRunsAndRunsWithMoreThreadsGiveTheSameBits) {
   const std::vector<Scan> scans = drive(85, 6.5);
   const auto run = [&](int threads) {

@@ -7,17 +7,25 @@ namespace lego_loam_sc {
 
 /// A pair of key frames that may show the same place; the verifier decides.
 struct LoopCandidate {
-  enum class Detector { scan_context, radius };
+  enum class Detector { scan_context, radius, custom };
 
   int query = 0;  ///< key frame, the later one
   int match = 0;  ///< key frame of the earlier visit, c* of equation (8)
   Detector detector = Detector::scan_context;
   double distance = 0.0;  ///< Scan Context: D of equation (5), in [0, 1]; radius search: m
-  double yaw = 0.0;       ///< Scan Context only: rad, T_match_query turns by about R_z(yaw)
+  double yaw = 0.0;       ///< not by the radius search: rad, T_match_query turns by about R_z(yaw)
 };
 
 constexpr std::string_view to_string(LoopCandidate::Detector detector) {
-  return detector == LoopCandidate::Detector::scan_context ? "scan_context" : "radius";
+  switch (detector) {
+    case LoopCandidate::Detector::scan_context:
+      return "scan_context";
+    case LoopCandidate::Detector::radius:
+      return "radius";
+    case LoopCandidate::Detector::custom:
+      return "custom";
+  }
+  return "unknown";
 }
 
 }  // namespace lego_loam_sc

@@ -4,6 +4,9 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "loop/radius_search.hpp"
 #include "slam/edge_covariance.hpp"
@@ -40,11 +43,12 @@ double inconsistency(const Pose& T_match_query, const Pose& expected, double tra
 
 }  // namespace
 
-LoopCloser::LoopCloser(const LoopSettings& settings, const GraphSettings& graph,
-                       double range_noise)
+LoopCloser::LoopCloser(const LoopSettings& settings, const GraphSettings& graph, double range_noise,
+                       LoopDetector detector)
     : settings_(settings),
       graph_settings_(graph),
       range_noise_(range_noise),
+      detector_(std::move(detector)),
       contexts_(settings.scan_context) {}
 
 std::vector<LoopCandidate> LoopCloser::candidates(std::span<const KeyFrame> key_frames,
@@ -66,6 +70,17 @@ std::vector<LoopCandidate> LoopCloser::candidates(std::span<const KeyFrame> key_
   if (settings_.radius_search.enabled) {
     const auto near = search_radius(graph.poses(), query, eligible, settings_.radius_search);
     found.insert(found.end(), near.begin(), near.end());
+  }
+  if (detector_ && eligible > 0) {
+    for (LoopCandidate candidate : detector_({key_frames, graph.poses(), eligible})) {
+      if (candidate.match < 0 || candidate.match >= eligible)
+        throw std::invalid_argument("the loop detector gave key frame " +
+                                    std::to_string(candidate.match) + ", only those from 0 to " +
+                                    std::to_string(eligible - 1) + " are eligible");
+      candidate.query = query;
+      candidate.detector = LoopCandidate::Detector::custom;
+      found.push_back(candidate);
+    }
   }
   return found;
 }
@@ -89,15 +104,14 @@ LoopVerification LoopCloser::verify(const LoopCandidate& candidate,
     return far;
   }
 
-  // Scan Context says how the two scans are turned, the pose graph where they should be.
+  // A detector may say how the two scans are turned, the pose graph says where they should be.
   std::vector<Pose> guesses;
-  if (candidate.detector == LoopCandidate::Detector::scan_context) {
+  if (candidate.detector != LoopCandidate::Detector::radius) {
     Pose turned = Pose::Identity();
     turned.linear() = rotation_from_rpy(0.0, 0.0, candidate.yaw);
     guesses.push_back(turned);
-  } else {
-    guesses.push_back(expected);
   }
+  if (candidate.detector != LoopCandidate::Detector::scan_context) guesses.push_back(expected);
   LoopVerification result = verify_loop(
       placed_round(candidate.query, settings.query_neighbours, 0, key_frames, poses),
       placed_round(candidate.match, settings.neighbours, settings.neighbours, key_frames, poses),

@@ -9,16 +9,19 @@
 #include "graph/pose_graph.hpp"
 #include "loop/key_frame.hpp"
 #include "loop/loop_candidate.hpp"
+#include "loop/loop_detector.hpp"
 #include "loop/ring_key_index.hpp"
 #include "slam/report.hpp"
 
 namespace lego_loam_sc {
 
-/// Loop closing, paper 2.3 (5) and (6): candidates from Scan Context and from the radius search,
-/// both independently, verified by ICP and checked against the pose graph.
+/// Loop closing, paper 2.3 (5) and (6): candidates from Scan Context, from the radius search and
+/// from a detector of the user's own, independently, verified by ICP and checked against the pose
+/// graph.
 class LoopCloser {
  public:
-  LoopCloser(const LoopSettings& settings, const GraphSettings& graph, double range_noise);
+  LoopCloser(const LoopSettings& settings, const GraphSettings& graph, double range_noise,
+             LoopDetector detector = {});
 
   /// Describes the newest key frame; call once for each.
   void add_key_frame(ScanContext context) { contexts_.add(std::move(context)); }
@@ -37,6 +40,7 @@ class LoopCloser {
   LoopSettings settings_;
   GraphSettings graph_settings_;
   double range_noise_;
+  LoopDetector detector_;
   ScanContextIndex contexts_;
   double last_loop_travelled_ = -1e9;  // m along the path
 };

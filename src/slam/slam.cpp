@@ -51,15 +51,17 @@ double seconds_between(std::int64_t from_ns, std::int64_t to_ns) {
 }  // namespace
 
 struct Slam::State {
-  State(const SensorModel& sensor_model, const Settings& slam_settings, int threads)
+  State(const SensorModel& sensor_model, const Settings& slam_settings, int threads,
+        LoopDetector loop_detector)
       : given_sensor(sensor_model),
         sensor(sensor_model),
         settings(checked(sensor_model, slam_settings)),
+        detector(std::move(loop_detector)),
         arena(std::max(threads, 1)),
         height(sensor.height),
         odometry(settings.odometry, sensor.range_noise),
         mapper(settings.mapping, sensor.range_noise, row_spacing(sensor)),
-        loop_closer(settings.loop, settings.graph, sensor.range_noise),
+        loop_closer(settings.loop, settings.graph, sensor.range_noise, detector),
         graph(settings.graph) {}
 
   ScanReport process(const Scan& scan);
@@ -75,6 +77,7 @@ struct Slam::State {
   SensorModel given_sensor;
   SensorModel sensor;  // the same with the tilt and the elevations that were found on the way
   Settings settings;
+  LoopDetector detector;
   tbb::task_arena arena;
 
   double height;  // m, 0 = not known yet
@@ -296,8 +299,8 @@ Pose Slam::State::of_lidar(Pose T_frame_level) const {
   return T_frame_level;
 }
 
-Slam::Slam(const SensorModel& sensor, const Settings& settings, int threads)
-    : state_(std::make_unique<State>(sensor, settings, threads)) {}
+Slam::Slam(const SensorModel& sensor, const Settings& settings, int threads, LoopDetector detector)
+    : state_(std::make_unique<State>(sensor, settings, threads, std::move(detector))) {}
 Slam::~Slam() = default;
 Slam::Slam(Slam&&) noexcept = default;
 Slam& Slam::operator=(Slam&&) noexcept = default;
@@ -322,7 +325,7 @@ ScanReport Slam::begin_again(const Scan& first, const Scan& second, ScanReport r
     if (report.status > Status::odometry_only || motion.head<3>().norm() < state_->sensor.range_noise)
       break;
     auto again = std::make_unique<State>(state_->given_sensor, state_->settings,
-                                         state_->arena.max_concurrency());
+                                         state_->arena.max_concurrency(), state_->detector);
     again->twist = state_->twist;
     again->arena.execute([&] {
       again->process(first);

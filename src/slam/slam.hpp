@@ -11,6 +11,7 @@
 #include "core/trajectory.hpp"
 #include "graph/pose_graph.hpp"
 #include "loop/key_frame.hpp"
+#include "loop/loop_detector.hpp"
 #include "slam/report.hpp"
 
 namespace lego_loam_sc {
@@ -22,9 +23,11 @@ namespace lego_loam_sc {
 /// the bit, for any number of threads.
 class Slam {
  public:
-  /// `threads` bounds all threads that work is spread over. Throws std::invalid_argument when the
-  /// sensor or a setting is not valid.
-  Slam(const SensorModel& sensor, const Settings& settings, int threads = 1);
+  /// `threads` bounds all threads that work is spread over; `detector` looks for loops beside those
+  /// that the settings switch on. Throws std::invalid_argument when the sensor or a setting is not
+  /// valid.
+  Slam(const SensorModel& sensor, const Settings& settings, int threads = 1,
+       LoopDetector detector = {});
   ~Slam();
   Slam(Slam&&) noexcept;
   Slam& operator=(Slam&&) noexcept;

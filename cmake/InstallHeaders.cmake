@@ -1,0 +1,20 @@
+# Run while installing: copies `headers` (paths below `source`) and what they include to
+# `destination`. Sources include "slam/slam.hpp"; installed headers, in a folder that others share,
+# say "lego_loam_sc/slam/slam.hpp".
+cmake_minimum_required(VERSION 3.25)
+set(done)
+while(headers)
+  list(POP_FRONT headers header)
+  if(header IN_LIST done)
+    continue()
+  endif()
+  list(APPEND done ${header})
+  file(READ ${source}/${header} text)
+  string(REGEX MATCHALL "#include \"[^\"]+\"" includes "${text}")
+  list(TRANSFORM includes REPLACE "#include \"([^\"]+)\"" "\\1")
+  list(APPEND headers ${includes})
+  string(REPLACE "#include \"" "#include \"lego_loam_sc/" text "${text}")
+  # Only what has changed is written, so that nothing is built anew for nothing.
+  file(CONFIGURE OUTPUT "${destination}/${header}" CONTENT "${text}" @ONLY NEWLINE_STYLE UNIX)
+  list(APPEND CMAKE_INSTALL_MANIFEST_FILES "${destination}/${header}")
+endwhile()
