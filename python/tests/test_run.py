@@ -109,7 +109,7 @@ def test_a_missing_companion_is_told_with_the_way_to_install_it(simulated, tmp_p
     outcome = subprocess.run(command, env={"PATH": "/nowhere"}, capture_output=True, text=True)
     assert outcome.returncode == 1
     (sentence,) = outcome.stderr.splitlines()
-    assert "scripts/setup" in sentence and "pip install ./python" in sentence
+    assert "scripts/setup" in sentence and "pip install ." in sentence
 
 
 def test_a_reader_that_breaks_off_is_told_and_its_scans_count(simulated, tmp_path):

@@ -138,7 +138,7 @@ RecordingReader::RecordingReader(const std::string& input, const std::optional<s
                      " is read by the companion package, and lego-loam-sc-read does not "
                      "start (" +
                      std::strerror(error) +
-                     "); install it with scripts/setup, or with pip install ./python");
+                     "); install it with scripts/setup, or with pip install . in the repository");
 }
 
 int RecordingReader::wait() {
