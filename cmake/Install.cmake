@@ -23,13 +23,7 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/lego_loam_sc-config.cmake
               ${CMAKE_CURRENT_BINARY_DIR}/lego_loam_sc-config-version.cmake cmake/FindGTSAM.cmake
         DESTINATION ${package_dir} COMPONENT development)
 
-# The public headers; what they include is installed with them.
-set(public_headers
-  slam/slam.hpp slam/match_scans.hpp slam/map_cloud.hpp loop/scan_context.hpp
-  io/scan_source.hpp io/recognise_sensor.hpp io/sensor_yaml.hpp io/settings_yaml.hpp
-  io/trajectory.hpp io/cloud_writer.hpp io/error.hpp)
 install(CODE "
-  set(source ${CMAKE_CURRENT_SOURCE_DIR}/src)
+  set(source \"${CMAKE_CURRENT_SOURCE_DIR}/src\")
   set(destination \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_INCLUDEDIR}/lego_loam_sc\")
-  set(headers ${public_headers})
-  include(${CMAKE_CURRENT_SOURCE_DIR}/cmake/InstallHeaders.cmake)" COMPONENT development)
+  include(\"${CMAKE_CURRENT_SOURCE_DIR}/cmake/InstallHeaders.cmake\")" COMPONENT development)

@@ -1,7 +1,11 @@
-# Run while installing: copies `headers` (paths below `source`) and what they include to
+# Run while installing: copies the public headers (paths below `source`) and what they include to
 # `destination`. Sources include "slam/slam.hpp"; installed headers, in a folder that others share,
 # say "lego_loam_sc/slam/slam.hpp".
 cmake_minimum_required(VERSION 3.25)
+set(headers
+  slam/slam.hpp slam/match_scans.hpp slam/map_cloud.hpp loop/scan_context.hpp
+  io/scan_source.hpp io/recognise_sensor.hpp io/sensor_yaml.hpp io/settings_yaml.hpp
+  io/trajectory.hpp io/cloud_writer.hpp io/error.hpp)
 set(done)
 while(headers)
   list(POP_FRONT headers header)
@@ -9,7 +13,7 @@ while(headers)
     continue()
   endif()
   list(APPEND done ${header})
-  file(READ ${source}/${header} text)
+  file(READ "${source}/${header}" text)
   string(REGEX MATCHALL "#include \"[^\"]+\"" includes "${text}")
   list(TRANSFORM includes REPLACE "#include \"([^\"]+)\"" "\\1")
   list(APPEND headers ${includes})

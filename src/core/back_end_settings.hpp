@@ -80,6 +80,7 @@ struct VerifierSettings {
   }
 };
 
+/// Paper 2.3 (5): where loops are sought.
 struct LoopSettings {
   double min_travel = 30.0;
   double min_seconds = 0.0;

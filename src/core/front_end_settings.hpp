@@ -179,6 +179,7 @@ struct MappingSettings {
   }
 };
 
+/// When a scan becomes a key frame, and how much of it is kept.
 struct KeyFrameSettings {
   double distance = 2.0;
   double rotation_deg = 10.0;

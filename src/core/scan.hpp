@@ -18,6 +18,7 @@ struct Scan {
   std::vector<std::uint16_t> ring;       ///< in the sensor's own numbering
   std::vector<std::int32_t> offset_ns;   ///< time of the point after `stamp_ns`, may be negative
 
+  /// Number of points.
   std::size_t size() const { return points.size(); }
 };
 

@@ -28,6 +28,7 @@ struct SensorModel {
   double mount_roll_deg = 0.0;
   double mount_pitch_deg = 0.0;
 
+  /// Number of beams.
   int rows() const { return static_cast<int>(elevation_deg.size()); }
   bool tilted() const { return mount_roll_deg != 0.0 || mount_pitch_deg != 0.0; }
 };

@@ -17,6 +17,7 @@ namespace lego_loam_sc {
 // The defaults are the method `lego-loam-sc`; config/methods/*.yaml hold the other methods as
 // differences from it.
 
+/// What a run writes.
 struct OutputSettings {
   double map_voxel_size = 0.1;
 
@@ -26,6 +27,7 @@ struct OutputSettings {
   }
 };
 
+/// All settings of the SLAM; docs/settings.md explains each.
 struct Settings {
   SegmentationSettings segmentation;
   FeatureSettings features;

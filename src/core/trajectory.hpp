@@ -8,11 +8,13 @@
 
 namespace lego_loam_sc {
 
+/// The pose of a scan, with the scan's own stamp.
 struct StampedPose {
   std::int64_t stamp_ns = 0;
   Pose pose = Pose::Identity();
 };
 
+/// In the order of time.
 using Trajectory = std::vector<StampedPose>;
 
 }  // namespace lego_loam_sc

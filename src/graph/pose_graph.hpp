@@ -43,6 +43,7 @@ struct PoseEdge {
 /// for any number of threads, to the bit.
 class PoseGraph {
  public:
+  /// Without key frames.
   explicit PoseGraph(const GraphSettings& settings);
   PoseGraph(PoseGraph&&) noexcept;
   PoseGraph& operator=(PoseGraph&&) noexcept;
@@ -65,10 +66,10 @@ class PoseGraph {
   /// Brings all poses to the optimum. Does nothing unless loops have come or gone.
   void optimise();
 
-  std::size_t size() const;
-  const std::vector<Pose>& poses() const;  ///< T_map_key of each key frame
-  const std::vector<PoseEdge>& odometry_edges() const;
-  const std::vector<PoseEdge>& loop_edges() const;
+  std::size_t size() const;                             ///< number of key frames
+  const std::vector<Pose>& poses() const;               ///< T_map_key of each key frame
+  const std::vector<PoseEdge>& odometry_edges() const;  ///< from each key frame to the next
+  const std::vector<PoseEdge>& loop_edges() const;      ///< in the order in which they came
 
   /// Mahalanobis distance between a loop's measurement and the present poses. Of six degrees of
   /// freedom: above 4.7 once in a thousand true loops.

@@ -21,6 +21,7 @@ struct StampHint {
   std::optional<TimeUnit> unit;  ///< nothing = decide from the numbers
 };
 
+/// What interpret_point_times makes of the times.
 struct PointTimes {
   std::int64_t stamp_ns = 0;
   std::vector<std::int32_t> offset_ns;  ///< empty: the points have no times

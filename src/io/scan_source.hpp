@@ -24,6 +24,7 @@ class ScanSource {
   /// The number of scans, when it is known beforehand.
   virtual std::optional<std::size_t> size() const { return std::nullopt; }
 
+  /// What is known of the scans besides them.
   const DatasetFacts& facts() const { return facts_; }
 
   /// What was assumed about stamps and times of points, a sentence each; may grow with `next`.

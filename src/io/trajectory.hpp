@@ -23,6 +23,7 @@ void write_tum(const std::filesystem::path& path, const Trajectory& trajectory);
 void write_kitti(const std::filesystem::path& path, const Trajectory& trajectory,
                  const std::optional<Pose>& T_camera_lidar = std::nullopt);
 
+/// What a file of poses says.
 struct PoseFile {
   Trajectory poses;        ///< in the order of the file
   bool has_stamps = true;  ///< false for KITTI files; then `stamp_ns` is the index of the pose

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "features/features.hpp"
+
 namespace lego_loam_sc {
 
 PackedPoint pack(const Eigen::Vector3f& position, float intensity) {

@@ -6,9 +6,9 @@
 
 #include <Eigen/Core>
 
-#include "features/features.hpp"
-
 namespace lego_loam_sc {
+
+struct FeaturePoint;
 
 /// A point of a key frame in 8 bytes: 5 mm steps up to 163 m, intensity as half a float.
 struct PackedPoint {
@@ -17,6 +17,7 @@ struct PackedPoint {
   std::int16_t x, y, z;
   Eigen::half intensity;
 
+  /// LiDAR frame of the key frame, m.
   Eigen::Vector3f position() const {
     return kStep * Eigen::Vector3f(static_cast<float>(x), static_cast<float>(y),
                                    static_cast<float>(z));

@@ -7,6 +7,7 @@ namespace lego_loam_sc {
 
 /// A pair of key frames that may show the same place; the verifier decides.
 struct LoopCandidate {
+  /// What found it.
   enum class Detector { scan_context, radius, custom };
 
   int query = 0;  ///< key frame, the later one
@@ -16,6 +17,7 @@ struct LoopCandidate {
   double yaw = 0.0;       ///< not by the radius search: rad, T_match_query turns by about R_z(yaw)
 };
 
+/// As it stands in loops.csv.
 constexpr std::string_view to_string(LoopCandidate::Detector detector) {
   switch (detector) {
     case LoopCandidate::Detector::scan_context:

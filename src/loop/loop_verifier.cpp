@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "features/features.hpp"
 #include "mapping/local_map.hpp"
 #include "mapping/thin_out.hpp"
 #include "odometry/correspondence.hpp"
+#include "odometry/localizability.hpp"
 
 namespace lego_loam_sc {
 namespace {

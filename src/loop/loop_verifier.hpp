@@ -7,9 +7,7 @@
 
 #include "core/pose.hpp"
 #include "core/settings.hpp"
-#include "features/features.hpp"
 #include "loop/key_frame.hpp"
-#include "odometry/localizability.hpp"
 
 namespace lego_loam_sc {
 
@@ -26,14 +24,16 @@ enum class Verdict {
   contradicted,   ///< accepted at first, taken out because the optimised graph does not bear it
 };
 
+/// As it stands in loops.csv.
 std::string_view to_string(Verdict verdict);
 
 /// A key frame and where it stands.
 struct PlacedKeyFrame {
-  const KeyFrame* key_frame = nullptr;
+  const KeyFrame* key_frame = nullptr;  ///< never null
   Pose T_frame_key = Pose::Identity();  ///< in the frame of the query or of the match
 };
 
+/// Result of verify_loop.
 struct LoopVerification {
   Verdict verdict = Verdict::no_match;
   Pose T_match_query = Pose::Identity();

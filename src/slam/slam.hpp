@@ -37,11 +37,13 @@ class Slam {
 
   /// Poses of all scans but those out of order: live as they were (before any loop) and final
   /// (after all loops).
+  /// @{
   const Trajectory& odometry() const;
   Trajectory trajectory() const;
+  /// @}
 
-  const std::vector<KeyFrame>& key_frames() const;
-  const PoseGraph& graph() const;
+  const std::vector<KeyFrame>& key_frames() const;  ///< in the order of time
+  const PoseGraph& graph() const;  ///< has the poses of the key frames and the loops
 
   /// The sensor's height above the ground, m: as the sensor model says or as estimated; 0 while
   /// unknown.
