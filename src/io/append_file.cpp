@@ -15,12 +15,21 @@ AppendFile::AppendFile(std::filesystem::path path) : path_(std::move(path)) {
 }
 
 AppendFile::~AppendFile() {
-  std::fclose(file_);
+  if (file_) std::fclose(file_);
 }
 
 void AppendFile::append(std::string_view lines) {
-  if (std::fwrite(lines.data(), 1, lines.size(), file_) != lines.size() || std::fflush(file_) != 0)
-    fail(errno);
+  if (std::fwrite(lines.data(), 1, lines.size(), file_) == lines.size() &&
+      std::fflush(file_) == 0) {
+    size_ += lines.size();
+    return;
+  }
+  const int error = errno;
+  std::fclose(std::exchange(file_, nullptr));  // tries once more, before the cut
+  // A full disk may have taken a part of a line.
+  std::error_code gone;
+  std::filesystem::resize_file(path_, size_, gone);
+  fail(error);
 }
 
 void AppendFile::fail(int error) const {

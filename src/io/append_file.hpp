@@ -16,7 +16,7 @@ class AppendFile {
   AppendFile(const AppendFile&) = delete;
   AppendFile& operator=(const AppendFile&) = delete;
 
-  /// `lines` end with a line feed.
+  /// `lines` end with a line feed. When this fails, the file is cut to the lines before and closed.
   void append(std::string_view lines);
 
  private:
@@ -24,6 +24,7 @@ class AppendFile {
 
   std::filesystem::path path_;
   std::FILE* file_ = nullptr;
+  std::size_t size_ = 0;
 };
 
 }  // namespace lego_loam_sc

@@ -11,10 +11,13 @@
 namespace lego_loam_sc {
 
 Scan read_bin(const std::filesystem::path& path) {
+  return parse_bin(read_file(path), path.string());
+}
+
+Scan parse_bin(std::string_view bytes, const std::string& file) {
   constexpr std::size_t kPointBytes = 4 * sizeof(float);
-  const std::string bytes = read_file(path);
   if (bytes.size() % kPointBytes != 0)
-    throw InputError(path.string() + " has " + std::to_string(bytes.size()) +
+    throw InputError(file + " has " + std::to_string(bytes.size()) +
                      " bytes, which is no multiple of 16 (float32 x y z intensity); it is cut off "
                      "or no KITTI scan");
   Scan scan;

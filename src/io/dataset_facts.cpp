@@ -24,28 +24,25 @@ TimeUnit to_unit(const YamlEntry& entry) {
                    ", it must be s, ms, us, ns or none");
 }
 
-// The line "Tr: r11 r12 r13 t1 ... t3"; files of other KITTI benchmarks have none.
-std::optional<Pose> read_calibration(const std::filesystem::path& path) {
-  const std::string text = read_file(path);
-  std::string_view rest = text;
-  while (!rest.empty()) {
-    std::string_view line = take_line(rest);
+}  // namespace
+
+std::optional<Pose> parse_calibration(std::string_view text, const std::string& file) {
+  while (!text.empty()) {
+    std::string_view line = take_line(text);
     if (take_word(line) != "Tr:") continue;
     Pose pose = Pose::Identity();
     for (int i = 0; i < 12; ++i) {
       const auto value = parse_double(take_word(line));
       if (!value || !std::isfinite(*value))
-        throw InputError(path.string() + ": Tr must be 12 numbers, the rows of [R t]");
+        throw InputError(file + ": Tr must be 12 numbers, the rows of [R t]");
       pose.matrix()(i / 4, i % 4) = *value;
     }
     if (!pose.linear().isUnitary(1e-3))
-      throw InputError(path.string() + ": the 3 x 3 part of Tr is no rotation");
+      throw InputError(file + ": the 3 x 3 part of Tr is no rotation");
     return normalized(pose);
   }
   return std::nullopt;
 }
-
-}  // namespace
 
 DatasetFacts parse_dataset_yaml(const std::string& text, const std::string& file) {
   static const std::vector<std::string> kKeys = {"sensor", "motion_compensated",
@@ -93,7 +90,7 @@ DatasetFacts read_dataset_facts(const std::filesystem::path& folder) {
     facts = parse_dataset_yaml(read_file(yaml), yaml.string());
   const std::filesystem::path calibration = folder / "calib.txt";
   if (std::filesystem::exists(calibration, missing))
-    facts.T_camera_lidar = read_calibration(calibration);
+    facts.T_camera_lidar = parse_calibration(read_file(calibration), calibration.string());
   return facts;
 }
 

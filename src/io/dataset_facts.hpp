@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "core/pose.hpp"
 #include "core/sensor_model.hpp"
@@ -25,6 +26,10 @@ struct DatasetFacts {
 
 /// Strict: throws InputError, which begins with `file`, for an unknown key or a bad value.
 DatasetFacts parse_dataset_yaml(const std::string& text, const std::string& file);
+
+/// The line "Tr: r11 r12 r13 t1 ... t3" of KITTI's calib.txt; files of other KITTI benchmarks have
+/// none. Throws InputError, which begins with `file`, when it is no rigid transform.
+std::optional<Pose> parse_calibration(std::string_view text, const std::string& file);
 
 /// The facts that dataset.yaml holds, as its text.
 std::string to_yaml(const DatasetFacts& facts);

@@ -11,6 +11,9 @@
 namespace lego_loam_sc {
 namespace {
 
+// Of pipes and of files that grow while they are read.
+constexpr std::size_t kMostBeyondSize = 64 << 20;
+
 [[noreturn]] void fail(const std::filesystem::path& path) {
   throw InputError(path.string() + " cannot be read: " + std::strerror(errno));
 }
@@ -24,12 +27,16 @@ std::string read_file(const std::filesystem::path& path) {
   std::setvbuf(file.get(), nullptr, _IONBF, 0);  // our buffer is the whole file
   std::error_code unknown;
   const auto size = std::filesystem::file_size(path, unknown);
+  const std::size_t expected = unknown ? 0 : static_cast<std::size_t>(size);
   // One byte more than the file has: the read that leaves it empty has met the end.
-  std::string bytes(unknown ? 65536 : static_cast<std::size_t>(size) + 1, '\0');
+  std::string bytes(expected + 1, '\0');
   std::size_t used = 0;
   for (;;) {
     used += std::fread(bytes.data() + used, 1, bytes.size() - used, file.get());
     if (used < bytes.size()) break;
+    if (used > expected + kMostBeyondSize)
+      throw InputError(path.string() +
+                       " gives more bytes than it has; a file is expected, no device");
     bytes.resize(2 * bytes.size());
   }
   if (std::ferror(file.get())) fail(path);

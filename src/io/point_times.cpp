@@ -15,7 +15,7 @@ namespace {
 constexpr double kShortestSweep = 0.02;  // s
 constexpr double kLongestSweep = 0.5;    // s
 constexpr double kSameClock = 1.0;       // s
-constexpr double kLatestStamp = 9e9;     // s, what 64 bits of nanoseconds hold
+constexpr double kLatestStamp = 4.6e9;  // s; the difference of two fits into 64 bits of nanoseconds
 
 constexpr std::array<double, 4> kSeconds = {1.0, 1e-3, 1e-6, 1e-9};
 constexpr std::array<const char*, 4> kUnitNames = {"seconds", "milliseconds", "microseconds",

@@ -16,6 +16,7 @@
 #include "io/pcd.hpp"
 #include "io/ply.hpp"
 #include "io/scan_stream.hpp"
+#include "io/scan_times.hpp"
 #include "io/text.hpp"
 
 namespace lego_loam_sc {
@@ -136,7 +137,8 @@ std::vector<fs::path> list_scans(const fs::path& folder) {
   std::vector<fs::path> files;
   std::set<std::string> kinds;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (!is_scan(entry.path()) || !entry.is_regular_file()) continue;
+    std::error_code unreadable;
+    if (!is_scan(entry.path()) || !entry.is_regular_file(unreadable)) continue;
     files.push_back(entry.path());
     kinds.insert(entry.path().extension().string());
   }
@@ -155,19 +157,7 @@ std::vector<fs::path> list_scans(const fs::path& folder) {
 }
 
 std::vector<std::int64_t> read_times(const fs::path& path, std::size_t scans) {
-  const std::string text = read_file(path);
-  std::vector<std::int64_t> stamps;
-  std::string_view rest = text;
-  for (std::size_t number = 1; !rest.empty(); ++number) {
-    std::string_view line = take_line(rest);
-    const std::string_view word = take_word(line);
-    if (word.empty()) continue;
-    const auto stamp = parse_seconds(word);
-    if (!stamp || !take_word(line).empty())
-      throw InputError(path.string() + ", line " + std::to_string(number) +
-                       ": one number is expected, the seconds of a scan");
-    stamps.push_back(*stamp);
-  }
+  std::vector<std::int64_t> stamps = parse_scan_times(read_file(path), path.string());
   if (stamps.size() != scans)
     throw InputError(path.string() + " has " + std::to_string(stamps.size()) + " times for " +
                      std::to_string(scans) + " scans; it must have one line per scan");

@@ -94,8 +94,10 @@ void apply(const YamlEntry& entry, SensorModel& sensor, EvenBeams& even) {
   }
 }
 
-SensorModel parse_sensor(const std::string& text, const std::string& name,
-                         const std::string& file) {
+}  // namespace
+
+SensorModel parse_sensor_yaml(const std::string& text, const std::string& name,
+                              const std::string& file) {
   SensorModel sensor;
   sensor.name = name;
   EvenBeams even;
@@ -107,16 +109,14 @@ SensorModel parse_sensor(const std::string& text, const std::string& name,
   return sensor;
 }
 
-}  // namespace
-
 SensorModel load_sensor(const std::string& name_or_file) {
   if (const auto preset = find_preset("sensors", name_or_file))
-    return parse_sensor(*preset, name_or_file, "the preset " + name_or_file);
+    return parse_sensor_yaml(*preset, name_or_file, "the preset " + name_or_file);
   const std::filesystem::path path(name_or_file);
   std::error_code missing;
   if (!std::filesystem::exists(path, missing))
     throw InputError("there is no sensor and no file " + describe_unknown("sensors", name_or_file));
-  return parse_sensor(read_file(path), path.stem().string(), path.string());
+  return parse_sensor_yaml(read_file(path), path.stem().string(), path.string());
 }
 
 std::string to_yaml(const SensorModel& sensor) {

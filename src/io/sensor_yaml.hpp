@@ -14,6 +14,10 @@ namespace lego_loam_sc {
 /// neither preset nor file, and with file and line when a key or value is wrong.
 SensorModel load_sensor(const std::string& name_or_file);
 
+/// The same for the text of a file; messages begin with `file`.
+SensorModel parse_sensor_yaml(const std::string& text, const std::string& name,
+                              const std::string& file);
+
 /// The sensor as YAML with a comment for each field; loaded again it gives the same sensor.
 std::string to_yaml(const SensorModel& sensor);
 

@@ -62,10 +62,6 @@ void apply(const YamlEntry& entry, Settings& settings) {
   if (!setter.found) fail_unknown_key(entry, all_keys());
 }
 
-void apply_yaml(const std::string& text, const std::string& file, Settings& settings) {
-  for (const YamlEntry& entry : parse_yaml(text, file)) apply(entry, settings);
-}
-
 void apply_assignment(const std::string& assignment, Settings& settings) {
   const std::size_t sign = assignment.find('=');
   if (sign == assignment.npos || sign == 0 || sign + 1 == assignment.size())
@@ -103,14 +99,18 @@ class Printer {
 
 }  // namespace
 
+void apply_settings_yaml(const std::string& text, const std::string& file, Settings& settings) {
+  for (const YamlEntry& entry : parse_yaml(text, file)) apply(entry, settings);
+}
+
 Settings load_settings(const std::string& method,
                        const std::optional<std::filesystem::path>& config_file,
                        const std::vector<std::string>& assignments) {
   const auto preset = find_preset("methods", method);
   if (!preset) throw InputError("there is no method " + describe_unknown("methods", method));
   Settings settings;
-  apply_yaml(*preset, "the preset " + method, settings);
-  if (config_file) apply_yaml(read_file(*config_file), config_file->string(), settings);
+  apply_settings_yaml(*preset, "the preset " + method, settings);
+  if (config_file) apply_settings_yaml(read_file(*config_file), config_file->string(), settings);
   for (const std::string& assignment : assignments) apply_assignment(assignment, settings);
   // Each value was checked where its line is known; this is for what only the core may check.
   if (const auto fault = validate(settings)) throw InputError(*fault);

@@ -17,6 +17,9 @@ Settings load_settings(const std::string& method,
                        const std::optional<std::filesystem::path>& config_file,
                        const std::vector<std::string>& assignments);
 
+/// Changes the settings that the text of a YAML file names; messages begin with `file`.
+void apply_settings_yaml(const std::string& text, const std::string& file, Settings& settings);
+
 /// All settings as YAML with a comment each; loaded again it gives the same settings.
 std::string to_yaml(const Settings& settings);
 

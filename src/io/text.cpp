@@ -68,7 +68,7 @@ std::optional<std::int64_t> parse_seconds(std::string_view text) {
   long double seconds = 0.0L;
   const char* end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, seconds);
-  if (error != std::errc() || stop != end || !(std::fabs(seconds) < 9e9L)) return std::nullopt;
+  if (error != std::errc() || stop != end || !(std::fabs(seconds) < 4.6e9L)) return std::nullopt;
   return std::llround(seconds * 1e9L);
 }
 
