@@ -28,6 +28,7 @@ constexpr int kStages = 6;
 struct ScanReport {
   int index = 0;
   std::int64_t stamp_ns = 0;
+  double stamp_jump_s = 0.0;  ///< from the stamp before, when that was bridged; see ScanClock
   Status status = Status::ok;
   Pose T_odom_lidar = Pose::Identity();  ///< live pose at the stamp, before any loop
 
@@ -45,6 +46,8 @@ struct ScanReport {
   int degenerate_translations = 0, degenerate_rotations = 0;
   double least_translation_strength = 0.0, least_rotation_strength = 0.0;
   double elevation_bias_deg = 0.0;  ///< found so far, corrected from the next scan on
+
+  double prediction_m = 0.0;  ///< from the predicted to the found position
 
   int key_frame = -1;  ///< its number when the scan is one
   std::vector<LoopReport> loops;

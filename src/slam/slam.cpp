@@ -18,6 +18,7 @@
 #include "slam/edge_covariance.hpp"
 #include "slam/loop_closer.hpp"
 #include "slam/make_key_frame.hpp"
+#include "slam/scan_clock.hpp"
 #include "slam/stage_timer.hpp"
 #include "slam/stamp_pose.hpp"
 #include "slam/transform_fusion.hpp"
@@ -58,6 +59,7 @@ struct Slam::State {
         settings(checked(sensor_model, slam_settings)),
         detector(std::move(loop_detector)),
         arena(std::max(threads, 1)),
+        clock(sensor.period),
         height(sensor.height),
         odometry(settings.odometry, sensor.range_noise),
         mapper(settings.mapping, sensor.range_noise, row_spacing(sensor)),
@@ -79,6 +81,7 @@ struct Slam::State {
   Settings settings;
   LoopDetector detector;
   tbb::task_arena arena;
+  ScanClock clock;
 
   double height;  // m, 0 = not known yet
   Odometry odometry;
@@ -92,7 +95,6 @@ struct Slam::State {
 
   std::optional<Scan> first_scan;  // until its motion is known
   int scans = 0;
-  std::int64_t stamp_ns = 0;        // of the last scan that was not out of order
   Placed previous;                  // the last scan that was matched
   Vector6 twist = Vector6::Zero();  // of that scan, m/s and rad/s
   double travelled = 0.0;           // m
@@ -105,15 +107,18 @@ ScanReport Slam::State::process(const Scan& scan) {
   report.stamp_ns = scan.stamp_ns;
   report.T_odom_lidar = of_lidar(previous.T_odom_lidar);
   const bool first = live.empty();
-  if (!first && scan.stamp_ns <= stamp_ns) {
+  const std::optional<ScanTime> time = clock.read(scan.stamp_ns);
+  if (!time) {
     report.status = Status::out_of_order;
     return report;
   }
+  report.stamp_jump_s = time->jump_s;
   StageTimer timer(report.milliseconds);
 
   timer.start(Stage::projection);
   RangeImage image = project(scan, sensor);
   if (mapper.empty() && estimate_tilt(image, sensor)) image = project(scan, sensor);
+  image.reference_ns += time->time_ns - scan.stamp_ns;
   report.points = image.size();
   if (height == 0.0)
     height = estimate_sensor_height(image, sensor, settings.segmentation).value_or(0.0);
@@ -138,7 +143,7 @@ ScanReport Slam::State::process(const Scan& scan) {
             : std::max(seconds_between(previous.reference_ns, image.reference_ns), 1e-3);
 
   // The map begins at the first scan's stamp; how it moved by then is only known when it is done again.
-  const double stamp_age = seconds_between(image.reference_ns, scan.stamp_ns);
+  const double stamp_age = seconds_between(image.reference_ns, time->time_ns);
   if (first)
     previous.T_map_lidar = previous.T_odom_lidar = extrapolate(twist, -(seconds + stamp_age));
 
@@ -150,14 +155,16 @@ ScanReport Slam::State::process(const Scan& scan) {
 
   // The same motion carries the live pose on, which no loop ever moves.
   const Pose T_previous_current = previous.T_map_lidar.inverse() * match.T_map_lidar;
+  if (!first)
+    report.prediction_m =
+        (T_previous_current.translation() - exp_se3(twist * seconds).translation()).norm();
   Placed current{image.reference_ns, match.T_map_lidar,
                  normalized(previous.T_odom_lidar * T_previous_current), twist};
-  stamp_ns = scan.stamp_ns;
   const bool good = report.status <= Status::odometry_only;
   Pose T_reference_stamp = extrapolate(twist, stamp_age);
   Features features_deskewed;
   if (good) {
-    if (!first)
+    if (!first && time->jump_s == 0.0)
       twist = log_se3(settings.mapping.every == 1 ? T_previous_current : motion.T_previous_current) /
               seconds;
     travelled += T_previous_current.translation().norm();
@@ -185,8 +192,8 @@ ScanReport Slam::State::process(const Scan& scan) {
   }
 
   report.T_odom_lidar = of_lidar(current.T_odom_lidar * T_reference_stamp);
-  live.push_back({stamp_ns, report.T_odom_lidar});
-  fusion.add(stamp_ns, static_cast<int>(key_frames.size()) - 1,
+  live.push_back({scan.stamp_ns, report.T_odom_lidar});
+  fusion.add(scan.stamp_ns, static_cast<int>(key_frames.size()) - 1,
              of_lidar(graph.poses().back().inverse() * T_map_lidar * T_reference_stamp));
   return report;
 }
