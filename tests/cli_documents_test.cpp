@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <set>
 #include <sstream>
 #include <string>
@@ -101,12 +102,13 @@ TEST(Documents, ListTheFilesThatARunLeaves) {
   EXPECT_EQ(std::set<std::string>(documented.begin(), documented.end()), files);
 }
 
-// Names of all leaves; `status` and the errors have tables of their own.
+// Names of all leaves; `status`, the health and the errors have tables of their own.
 void add_leaves(const nlohmann::ordered_json& object, const std::string& prefix,
                 std::vector<std::string>& names) {
   for (const auto& [key, value] : object.items()) {
     const std::string name = prefix + key;
-    const bool leaf = !value.is_object() || name == "status" || name == "errors.trajectory" ||
+    const bool leaf = !value.is_object() || name == "status" || name == "health" ||
+                      name == "timing.delay" || name == "errors.trajectory" ||
                       name == "errors.odometry";
     if (leaf)
       names.push_back(name);
@@ -126,8 +128,37 @@ TEST(Documents, ListTheFieldsOfTheSummaryAndOfTheErrors) {
   EXPECT_EQ(first_cells("docs/output.md", "summary.json"), names);
 
   names.clear();
+  for (const auto& [key, value] : summary["health"].items()) names.push_back(key);
+  names.push_back("delay");
+  EXPECT_EQ(first_cells("docs/output.md", "Health"), names);
+
+  names.clear();
   for (const auto& [key, value] : summary["errors"]["trajectory"].items()) names.push_back(key);
   EXPECT_EQ(first_cells("docs/output.md", "Errors against truth"), names);
+}
+
+// All text of the files in a folder whose names end in `ending`.
+std::string text_of_files(const fs::path& folder, const std::string& ending) {
+  std::string text;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().string().ends_with(ending)) text += read_text(entry.path());
+  return text;
+}
+
+TEST(Documents, NameTestsThatExist) {
+  const std::string tests = text_of_files(kSource / "tests", "_test.cpp");
+  const std::string python = text_of_files(kSource / "python/tests", ".py");
+  const std::string document = read_text(kSource / "docs/reliability.md");
+  const std::regex name("`(?:([A-Z]\\w+)\\.([A-Z]\\w+)|(test_\\w+))`");
+  int found = 0;
+  for (std::sregex_iterator match(document.begin(), document.end(), name), end; match != end;
+       ++match, ++found) {
+    const std::string suite = (*match)[1], test = (*match)[2], function = (*match)[3];
+    const bool exists = function.empty() ? tests.find("(" + suite + ", " + test + ")") != tests.npos
+                                         : python.find("def " + function + "(") != python.npos;
+    EXPECT_TRUE(exists) << match->str();
+  }
+  EXPECT_GT(found, 30);
 }
 
 // Lines of shell blocks of a document, joined where they end in a backslash.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <malloc.h>
+#include <signal.h>
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
@@ -31,6 +32,7 @@ int main(int argc, char** argv) {
   // Standard output is for results: a scan stream, JSON, settings.
   spdlog::set_default_logger(spdlog::stderr_color_mt("lego-loam-sc"));
   keep_freed_memory();
+  signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error like others
   spdlog::set_pattern("lego-loam-sc: %v");
 
   CLI::App app{"LiDAR-only SLAM: LeGO-LOAM with Scan Context loops."};

@@ -30,8 +30,9 @@ constexpr const char* kScansHeader =
     "scan,stamp,status,points,ground_points,segment_points,clusters,edges_sharp,planars_flat,"
     "edges_large,planars_large,odometry_edges,odometry_planars,odometry_iterations,map_points,"
     "map_matches,map_iterations,map_rmse_m,degenerate_translations,degenerate_rotations,"
-    "translation_strength,rotation_strength,elevation_bias_deg,key_frame,corrected,projection_ms,segmentation_ms,"
-    "features_ms,odometry_ms,mapping_ms,loops_ms\n";
+    "translation_strength,rotation_strength,elevation_bias_deg,prediction_m,stamp_jump_s,warnings,"
+    "errors,key_frame,corrected,projection_ms,segmentation_ms,features_ms,odometry_ms,mapping_ms,"
+    "loops_ms,delay_ms,delay_level\n";
 
 constexpr const char* kLoopsHeader =
     "query,match,query_scan,match_scan,detector,distance,yaw_deg,overlap,rmse_m,x,y,z,roll_deg,"
@@ -41,7 +42,8 @@ constexpr const char* kLoopsHeader =
 class CsvLine {
  public:
   CsvLine& operator<<(std::string_view text) {
-    if (!line_.empty()) line_ += ',';
+    if (!begins_) line_ += ',';
+    begins_ = false;
     line_ += text;
     return *this;
   }
@@ -53,9 +55,10 @@ class CsvLine {
 
  private:
   std::string line_;
+  bool begins_ = true;
 };
 
-std::string scan_line(const ScanReport& r) {
+std::string scan_line(const ScanReport& r, const HealthLog::Line& health) {
   CsvLine line;
   line << r.index << to_seconds(r.stamp_ns) << to_string(r.status) << r.points << r.ground_points
        << r.segment_points << r.clusters << r.edges_sharp << r.planars_flat << r.edges_large
@@ -63,8 +66,11 @@ std::string scan_line(const ScanReport& r) {
        << r.map_points << r.map_matches << r.map_iterations << to_fixed(r.map_rmse, 4)
        << r.degenerate_translations << r.degenerate_rotations
        << to_fixed(r.least_translation_strength, 1) << to_fixed(r.least_rotation_strength, 1)
-       << to_fixed(r.elevation_bias_deg, 4) << r.key_frame << (r.corrected ? 1 : 0);
+       << to_fixed(r.elevation_bias_deg, 4) << to_fixed(r.prediction_m, 4)
+       << to_fixed(r.stamp_jump_s, 3) << health.warnings << health.errors << r.key_frame
+       << (r.corrected ? 1 : 0);
   for (const double milliseconds : r.milliseconds) line << to_fixed(milliseconds, 3);
+  line << to_fixed(health.delay_ms, 3) << to_string(health.delay_level);
   return line.text();
 }
 
@@ -157,6 +163,7 @@ ResultWriter::ResultWriter(std::filesystem::path folder, const SensorModel& sens
                            const Settings& settings)
     : folder_(std::move(folder)),
       settings_(settings),
+      health_(sensor),
       scans_(folder_ / "scans.csv"),
       loops_(folder_ / "loops.csv"),
       odometry_(folder_ / "odometry.tum") {
@@ -167,7 +174,10 @@ ResultWriter::ResultWriter(std::filesystem::path folder, const SensorModel& sens
 }
 
 void ResultWriter::add(const ScanReport& report) {
-  scans_.append(scan_line(report));
+  scans_.append(scan_line(report, health_.add(report)));
+  if (report.stamp_jump_s != 0.0 && stamp_jumps_++ == 0)
+    first_jump_ = ", the first at scan " + std::to_string(report.index) +
+                  " by " + to_fixed(report.stamp_jump_s, 1) + " s\n";
   if (report.status != Status::out_of_order)
     odometry_.append(tum_line({report.stamp_ns, report.T_odom_lidar}));
   for (const LoopReport& loop : report.loops) {
@@ -191,8 +201,6 @@ std::string ResultWriter::finish(const Slam& slam, const DatasetFacts& dataset,
   write_graph(folder_ / "graph.g2o", slam.graph());
   const std::vector<MapPoint> map =
       make_map(slam.key_frames(), slam.graph().poses(), settings_.output.map_voxel_size);
-  write_ply(folder_ / "map.ply", map);
-  write_pcd(folder_ / "map.pcd", map);
   write_loop_scans(folder_ / "loop_scans.ply", loop_key_frames_, slam.key_frames());
 
   const double length = path_length(trajectory);
@@ -210,6 +218,8 @@ std::string ResultWriter::finish(const Slam& slam, const DatasetFacts& dataset,
       {"mount_pitch_deg", degrees(mounting[1]) + 0.0},
       {"scans", scan_count_},
       {"status", statuses_},
+      {"stamp_jumps", stamp_jumps_},
+      {"health", health_.to_json()},
       {"key_frames", slam.key_frames().size()},
       {"loops_accepted", accepted_loops_},
       {"loops_refused", refused_loops_},
@@ -223,8 +233,9 @@ std::string ResultWriter::finish(const Slam& slam, const DatasetFacts& dataset,
         {"cpu_seconds", resources.cpu_seconds},
         {"cpu_ms_per_scan", milliseconds_per_scan},
         {"peak_memory_mb", resources.peak_megabytes},
-        {"processor", processor_name()},
-        {"processors", std::thread::hardware_concurrency()}}}};
+         {"processor", processor_name()},
+         {"processors", std::thread::hardware_concurrency()},
+         {"delay", health_.to_json(Vital::delay)}}}};
   char text[512];
   std::snprintf(text, sizeof text,
                 "%zu scans, %.1f m, %zu key frames, %zu loops, %zu map points\n"
@@ -236,6 +247,10 @@ std::string ResultWriter::finish(const Slam& slam, const DatasetFacts& dataset,
   for (const auto& [status, count] : statuses_)
     if (status != to_string(Status::ok))
       report += std::to_string(count) + " scans " + status + "\n";
+  if (stamp_jumps_ > 0)
+    report += "jumps of the stamps that were bridged: " + std::to_string(stamp_jumps_) +
+              first_jump_;
+  report += health_.text();
   std::optional<InputError> misfit;  // of the truth; the run's results are worth no less
   try {
     if (facts.truth) {
@@ -251,6 +266,9 @@ std::string ResultWriter::finish(const Slam& slam, const DatasetFacts& dataset,
   // A file name need not be UTF-8.
   write_file(folder_ / "summary.json",
              summary.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  // The largest last: a disk that is full for them has taken the rest.
+  write_ply(folder_ / "map.ply", map);
+  write_pcd(folder_ / "map.pcd", map);
   if (misfit) throw *misfit;
   return report;
 }

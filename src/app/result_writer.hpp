@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/health_log.hpp"
 #include "core/sensor_model.hpp"
 #include "core/settings.hpp"
 #include "io/append_file.hpp"
@@ -51,6 +52,7 @@ class ResultWriter {
  private:
   std::filesystem::path folder_;
   Settings settings_;
+  HealthLog health_;
   AppendFile scans_;
   AppendFile loops_;
   AppendFile odometry_;
@@ -59,6 +61,8 @@ class ResultWriter {
   std::size_t accepted_loops_ = 0;
   std::size_t refused_loops_ = 0;
   std::map<std::string, std::size_t> statuses_;
+  std::size_t stamp_jumps_ = 0;
+  std::string first_jump_;
 };
 
 }  // namespace lego_loam_sc

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+#include "core/sensor_model.hpp"
+#include "slam/report.hpp"
+
+namespace lego_loam_sc {
+
+/// What an operator watches. The levels hold for every sensor and place, health.cpp says why they
+/// are where they are.
+enum class Vital { points, features, inliers, residual, degeneracy, prediction, delay };
+constexpr std::size_t kVitals = 7;
+
+enum class HealthLevel { ok, warning, error };
+constexpr std::string_view to_string(HealthLevel level) {
+  return level == HealthLevel::ok ? "ok" : level == HealthLevel::warning ? "warning" : "error";
+}
+
+struct VitalLimits {
+  std::string_view name;
+  std::string_view unit;
+  double warning;  ///< from here on, downwards when `low_is_bad`
+  double error;    ///< farther in the same direction
+  bool low_is_bad;
+};
+
+/// The limits of each vital, in their order.
+const std::array<VitalLimits, kVitals>& vital_limits();
+
+/// The values of a scan in the units of the limits; NaN where the scan has none, as the first has
+/// no residual.
+using Vitals = std::array<double, kVitals>;
+
+/// `delay_s`: how far the run would be behind a live sensor after this scan.
+Vitals vitals_of(const ScanReport& report, const SensorModel& sensor, double delay_s);
+
+/// NaN is ok.
+HealthLevel level_of(Vital vital, double value);
+
+}  // namespace lego_loam_sc
