@@ -75,7 +75,12 @@ bool wait_for_lines(const std::filesystem::path& file, std::size_t count) {
   return false;
 }
 
-class Interrupt : public testing::TestWithParam<const char*> {};
+struct HowToEnd {
+  int signal;
+  const char* threads;
+};
+
+class Interrupt : public testing::TestWithParam<HowToEnd> {};
 
 TEST_P(Interrupt, FinishesTheFilesForTheScansThatCameThoughTheStreamStaysOpen) {
   const Shell shell;
@@ -83,9 +88,9 @@ TEST_P(Interrupt, FinishesTheFilesForTheScansThatCameThoughTheStreamStaysOpen) {
   const std::filesystem::path result = shell.folder() / "result";
   // The last scan stays incomplete, so that the program waits within it.
   const std::string stream = read_text(shell.folder() / "all");
-  StalledRun run(stream.substr(0, stream.size() - 100), result, GetParam());
+  StalledRun run(stream.substr(0, stream.size() - 100), result, GetParam().threads);
   ASSERT_TRUE(wait_for_lines(result / "scans.csv", kScans));
-  run.send(SIGINT);
+  run.send(GetParam().signal);
   EXPECT_EQ(run.wait(), 0);
   EXPECT_EQ(lines_of(result / "trajectory.tum").size(), kScans - 1U);
   const auto summary = nlohmann::json::parse(read_text(result / "summary.json"));
@@ -94,7 +99,26 @@ TEST_P(Interrupt, FinishesTheFilesForTheScansThatCameThoughTheStreamStaysOpen) {
   EXPECT_EQ(summary["faults"].size(), 0U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Threads, Interrupt, testing::Values("1", "2"));
+INSTANTIATE_TEST_SUITE_P(SignalsAndThreads, Interrupt,
+                         testing::Values(HowToEnd{SIGINT, "1"}, HowToEnd{SIGINT, "2"},
+                                         HowToEnd{SIGTERM, "1"}, HowToEnd{SIGTERM, "2"}));
+
+TEST(Kill, LeavesWholeLinesAndNoFileThatLooksWhole) {
+  const Shell shell;
+  shell.must("$P simulate parking --sensor rs16 -o - --count " + std::to_string(kScans) + " > all");
+  const std::filesystem::path result = shell.folder() / "result";
+  const std::string stream = read_text(shell.folder() / "all");
+  StalledRun run(stream.substr(0, stream.size() - 100), result, "2");
+  ASSERT_TRUE(wait_for_lines(result / "scans.csv", kScans));
+  run.send(SIGKILL);
+  EXPECT_EQ(run.wait(), -1);
+  const auto rows = read_csv(result / "scans.csv");
+  ASSERT_EQ(rows.size(), std::size_t{kScans});
+  for (const auto& row : rows) EXPECT_EQ(row.size(), rows[0].size());
+  EXPECT_TRUE(read_text(result / "odometry.tum").ends_with("\n"));
+  EXPECT_FALSE(std::filesystem::exists(result / "trajectory.tum"));
+  EXPECT_FALSE(std::filesystem::exists(result / "summary.json"));
+}
 
 }  // namespace
 }  // namespace lego_loam_sc

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
 
 #include <cmath>
 #include <fstream>
@@ -8,6 +10,7 @@
 #include <sstream>
 #include <string>
 
+#include "io/append_file.hpp"
 #include "io/atomic_file.hpp"
 #include "io/file.hpp"
 #include "io/g2o.hpp"
@@ -153,6 +156,30 @@ TEST(AtomicFile, NoticesAFullDisk) {
   std::filesystem::create_symlink("/dev/full", folder.path() / "a.txt.part");
   const std::string message = error_of([&] { write_file(folder.path() / "a.txt", "text"); });
   EXPECT_NE(message.find("No space left"), message.npos);
+}
+
+TEST(AppendFile, IsCutToItsWholeLinesWhenTheDiskIsFull) {
+  const TemporaryFolder folder;
+  rlimit before;
+  getrlimit(RLIMIT_FSIZE, &before);
+  signal(SIGXFSZ, SIG_IGN);
+  const rlimit small{25, before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &small);
+  std::string message;
+  {
+    AppendFile file(folder.path() / "a.csv");
+    file.append("first line\n");
+    message = error_of([&] { file.append("second line, too long\n"); });
+  }
+  setrlimit(RLIMIT_FSIZE, &before);
+  EXPECT_NE(message.find("a.csv: cannot be written"), message.npos) << message;
+  EXPECT_EQ(read_file(folder.path() / "a.csv"), "first line\n");
+}
+
+TEST(ReadFile, TakesNoEndlessDevice) {
+  const std::string message = error_of([] { read_file("/dev/zero"); });
+  EXPECT_NE(message.find("/dev/zero"), message.npos);
+  EXPECT_EQ(read_file("/dev/null"), "");
 }
 
 TEST(NaturalOrder, ComparesNumbersByTheirSize) {

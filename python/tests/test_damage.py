@@ -197,3 +197,28 @@ def test_random_damage_to_the_heads_of_messages_ends_in_sentences(tmp_path, read
         outcome = read(copy_bag(bag, tmp_path / "bad", bytes(damaged)), "--quiet")
         assert outcome.exit_code == (1 if outcome.messages else 0)
         assert len(outcome.scans) <= COUNT
+
+
+@pytest.mark.parametrize("promise", [1 << 62, 1 << 29])
+def test_a_chunk_that_promises_more_than_memory_holds_is_left_out_alone(tmp_path, read, promise):
+    bag = write_sweeps(tmp_path, "mcap_chunks", 3, points=60000)
+    data = bytearray(storage_file(bag).read_bytes())
+    size_before_name = 8 + 4 + 4  # size, checksum, length of the name of the compression
+    second = [match.start() for match in re.finditer(b"zstd", data)][1]
+    struct.pack_into("<Q", data, second - size_before_name, promise)
+    outcome = read(copy_bag(bag, tmp_path / "bad", bytes(data)), "--quiet")
+    assert outcome.stamps() == stamps([0, 2])
+    assert outcome.exit_code == 1
+    (sentence,) = outcome.messages
+    assert f"it promises {promise} bytes" in sentence
+
+
+def test_names_in_metadata_lead_to_no_file_elsewhere(tmp_path, read):
+    outside = write_sweeps(tmp_path / "outside", "mcap", COUNT)
+    bag = write_sweeps(tmp_path, "mcap", 2)
+    metadata = bag / "metadata.yaml"
+    path = f"../{outside.relative_to(tmp_path)}/{storage_file(outside).name}"
+    text = metadata.read_text().replace(storage_file(bag).name, path)
+    metadata.write_text(text + "deep: " + "[" * 100000)
+    outcome = read(bag, "--quiet")
+    assert outcome.stamps() == stamps(range(2))
