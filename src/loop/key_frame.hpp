@@ -8,7 +8,7 @@
 
 namespace lego_loam_sc {
 
-struct FeaturePoint;
+struct Features;
 
 /// A point of a key frame in 8 bytes: 5 mm steps up to 163 m, intensity as half a float.
 struct PackedPoint {

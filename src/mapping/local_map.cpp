@@ -7,10 +7,11 @@ namespace lego_loam_sc {
 namespace {
 
 void insert_into(std::vector<SurfaceMap>& maps, const std::vector<double>& reach,
-                 const std::vector<FeaturePoint>& points, const Pose& T_map_points) {
+                 const std::vector<FeaturePoint>& points, const Pose& T_map_points,
+                 int first_level) {
   std::vector<Eigen::Vector3d> moved;
   std::vector<double> ranges;
-  for (std::size_t level = 0; level < maps.size(); ++level) {
+  for (std::size_t level = first_level; level < maps.size(); ++level) {
     moved.clear();
     ranges.clear();
     for (const FeaturePoint& p : points) {
@@ -68,10 +69,10 @@ LocalMap::LocalMap(double voxel_size, int levels, double planarity, double row_s
   }
 }
 
-void LocalMap::insert(const Features& features, const Pose& T_map_points) {
-  insert_into(planes_, reach_, features.planars_large, T_map_points);
-  insert_into(lines_, reach_, features.edges_large, T_map_points);
-  insert_into(scattered_, everywhere_, features.scattered, T_map_points);
+void LocalMap::insert(const Features& features, const Pose& T_map_points, int first_level) {
+  insert_into(planes_, reach_, features.planars_large, T_map_points, first_level);
+  insert_into(lines_, reach_, features.edges_large, T_map_points, first_level);
+  insert_into(scattered_, everywhere_, features.scattered, T_map_points, first_level);
 }
 
 std::vector<Correspondence> LocalMap::match(const Features& features, const Pose& T_map_points,
@@ -103,7 +104,7 @@ void LocalMap::clear() {
 }
 
 std::size_t LocalMap::size() const {
-  return planes_.front().size() + lines_.front().size() + scattered_.front().size();
+  return planes_.back().size() + lines_.back().size() + scattered_.back().size();
 }
 
 }  // namespace lego_loam_sc

@@ -175,8 +175,10 @@ MapMatch Mapper::refine(const Features& features, const ScanGuess& guess) {
       Eigen::Vector3d::Constant(prior_rotation * prior_rotation);
   Features points;
   double spacing = settings_.match_spacing;
+  first_level_ = 1;
   for (int k = 0; k == 0 || (k <= kHalvings && match.points < settings_.match_points);
        ++k, spacing *= 0.5) {
+    if (k > 0) first_level_ = 0;
     points = thin_out(features, spacing);
     match.points = static_cast<int>(points.planars_large.size() + points.edges_large.size() +
                                     points.scattered.size());
@@ -197,7 +199,8 @@ MapMatch Mapper::refine(const Features& features, const ScanGuess& guess) {
   double scale = kMaxScale;
   for (int k = 0; k < settings_.associations; ++k) {
     correspondences =
-        map_.match(deskew(points, twist), pose, settings_.max_distance, range_noise_, 0);
+        map_.match(deskew(points, twist), pose, settings_.max_distance, range_noise_,
+                   std::min(first_level_, settings_.levels - 1));
     match.matches = static_cast<int>(correspondences.size());
     if (match.matches < settings_.min_matches ||
         match.matches < settings_.min_matched_share * match.points)
@@ -251,7 +254,7 @@ void Mapper::insert(const Features& deskewed, const Pose& T_map_lidar) {
   const Eigen::Vector3d position = T_map_lidar.translation();
   if (last_insertion_ && (position - *last_insertion_).norm() < settings_.insert_distance) return;
   last_insertion_ = position;
-  map_.insert(deskewed, T_map_lidar);
+  map_.insert(deskewed, T_map_lidar, std::min(first_level_, settings_.levels - 1));
   if ((position - last_eviction_).norm() > kEvictionShare * settings_.radius) {
     map_.remove_beyond(position, settings_.radius);
     last_eviction_ = position;

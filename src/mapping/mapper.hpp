@@ -60,6 +60,7 @@ class Mapper {
   double range_noise_;
   LocalMap map_;
   ElevationBias elevation_bias_;
+  int first_level_ = 0;  // of the map that the present place is worth: the finest is for small spaces
   std::optional<Eigen::Vector3d> last_insertion_;
   Eigen::Vector3d last_eviction_ = Eigen::Vector3d::Zero();
 };
