@@ -18,8 +18,6 @@ constexpr double kMinScale = 1.0;
 constexpr double kMaxScale = 20.0;
 // A degenerate direction is tied to the guess with this sigma, m or rad.
 constexpr double kTied = 1e-4;
-// Constraints below which a direction is not weakly held but not at all.
-constexpr double kNothing = 1.0;
 // Times that the spacing of the points is halved in small spaces.
 constexpr int kHalvings = 2;
 // The map is searched for voxels out of reach after this share of its radius has been driven.
@@ -130,20 +128,17 @@ class VelocityPrior {
   Vector6 information_;
 };
 
-// Where the map shows nothing at all the odometry has matched noise with noise, which stands still: there
+// In directions that the map does not hold the odometry has matched noise with noise, which stands still: there
 // the last motion goes on instead.
-Pose predicted_where_nothing_holds(const ScanGuess& guess, const Localizability& l) {
+Pose predicted_where_degenerate(const ScanGuess& guess, const Localizability& l) {
   Vector6 delta;
   delta << guess.T_map_predicted.translation() - guess.T_map_lidar.translation(),
       log_so3(guess.T_map_predicted.linear() * guess.T_map_lidar.linear().transpose());
   Vector6 change = Vector6::Zero();
-  for (int i = 0; i < 3; ++i) {
-    if (l.translation[i] < kNothing)
-      change.head<3>() +=
-          l.translation_axes.col(i) * l.translation_axes.col(i).dot(delta.head<3>());
-    if (l.rotation[i] < kNothing)
-      change.tail<3>() += l.rotation_axes.col(i) * l.rotation_axes.col(i).dot(delta.tail<3>());
-  }
+  for (int i = 0; i < l.degenerate_translations; ++i)
+    change.head<3>() += l.translation_axes.col(i) * l.translation_axes.col(i).dot(delta.head<3>());
+  for (int i = 0; i < l.degenerate_rotations; ++i)
+    change.tail<3>() += l.rotation_axes.col(i) * l.rotation_axes.col(i).dot(delta.tail<3>());
   return perturb(guess.T_map_lidar, change);
 }
 
@@ -209,7 +204,7 @@ MapMatch Mapper::refine(const Features& features, const ScanGuess& guess) {
     scale = robust_scale(correspondences, pose, kKernelSpreads, kMinScale, kMaxScale);
     if (k == 0) {
       match.localizability = localizability(correspondences, pose, scale, settings_.min_strength);
-      pose = predicted_where_nothing_holds(guess, match.localizability);
+      pose = predicted_where_degenerate(guess, match.localizability);
       prior = PosePrior(pose, prior_translation, prior_rotation);
       prior.tie(match.localizability);
     }
