@@ -115,7 +115,8 @@ TEST(Correspondence, TheHessianIsTheWeightedSumOfSquaredNumericJacobians) {
     const Pose pose = draw.pose();
     for (const Kind kind : {Kind::plane, Kind::line, Kind::point}) {
       const Correspondence c = draw.correspondence(kind, pose, 0.4);
-      // The residual of a line as a vector: the part of the offset across the line; of a point all of it.
+      // The residual of a line as a vector: the part of the offset across the line; of a point all
+      // of it.
       const auto residual = [&](const Pose& at) -> Vector3d {
         const Vector3d offset = at * c.point - c.anchor;
         const Vector3d along = c.direction.dot(offset) * c.direction;

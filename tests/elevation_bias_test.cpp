@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kSigma = 0.03;  // m
 
-// Flat ground round the sensor, met by a map that was seen from other ranges, when all elevation angles
-// are off by `error` rad.
+// Flat ground round the sensor, met by a map that was seen from other ranges, when all elevation
+// angles are off by `error` rad.
 std::vector<Correspondence> ground(double error, std::mt19937& random) {
   std::normal_distribution<double> noise(0.0, kSigma);
   std::uniform_real_distribution<double> range(4.0, 40.0), azimuth(-3.14, 3.14);
@@ -30,7 +30,8 @@ std::vector<Correspondence> ground(double error, std::mt19937& random) {
   return all;
 }
 
-// What is found of an error of `true_deg` in `scans` scans, each corrected by what was found before.
+// What is found of an error of `true_deg` in `scans` scans, each corrected by what was found
+// before.
 double found_deg(double true_deg, int scans) {
   std::mt19937 random(5);
   ElevationBias bias;
@@ -45,7 +46,8 @@ double found_deg(double true_deg, int scans) {
 TEST(ElevationBias, ApproachesTheErrorOfTheBeamsFromBothSides) {
   for (const double error : {-0.3, 0.0, 0.2}) {
     EXPECT_NEAR(found_deg(error, 200), error, 0.02);
-    EXPECT_LT(std::abs(found_deg(error, 200) - error), std::abs(found_deg(error, 10) - error) + 0.005);
+    EXPECT_LT(std::abs(found_deg(error, 200) - error),
+              std::abs(found_deg(error, 10) - error) + 0.005);
   }
 }
 

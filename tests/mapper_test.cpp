@@ -58,8 +58,8 @@ TEST(Mapper, FindsThePoseFromAGuessThatIsOffByThirtyCentimetresAndThreeDegrees) 
 TEST(Mapper, TheCovarianceIsPositiveDefiniteAndSpeaksOfCentimetresAtMost) {
   Mapper mapper = mapped(hall(), kMadeHeight);
   const Pose truth = pose_of(-1.2, 4.3, kMadeHeight, 12.0);
-  const MapMatch match =
-      mapper.refine(features_at(hall(), truth, 51, kMadeHeight), {truth, truth, Pose::Identity(), 0.1});
+  const MapMatch match = mapper.refine(features_at(hall(), truth, 51, kMadeHeight),
+                                       {truth, truth, Pose::Identity(), 0.1});
   ASSERT_TRUE(match.matched);
   EXPECT_LT((match.covariance - match.covariance.transpose()).norm(), 1e-12);
   const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(match.covariance);
@@ -79,7 +79,8 @@ TEST(Mapper, DeskewsASweepWithTheMotionSinceThePreviousScan) {
   const Features features = through_stages(sweep, sensor, kMadeHeight).features;
   const Pose truth = start * exp_se3(0.05 * twist);
   const Pose motion = exp_se3(0.1 * twist);
-  const MapMatch match = mapper.refine(features, {off_by(truth, 0.1, 0.05, 0, 1.0), off_by(truth, 0.1, 0.05, 0, 1.0), motion, 0.1});
+  const MapMatch match = mapper.refine(
+      features, {off_by(truth, 0.1, 0.05, 0, 1.0), off_by(truth, 0.1, 0.05, 0, 1.0), motion, 0.1});
   ASSERT_TRUE(match.matched);
   const Pose error = truth.inverse() * match.T_map_lidar;
   EXPECT_LT(error.translation().norm(), 0.03);
@@ -127,12 +128,15 @@ TEST(Mapper, DoesNotMatchWhenTheMapIsElsewhere) {
 
 TEST(Mapper, DoesNotMatchNothing) {
   Mapper mapper = mapped(hall(), kMadeHeight);
-  EXPECT_FALSE(mapper.refine({}, {Pose::Identity(), Pose::Identity(), Pose::Identity(), 0.1}).matched);
+  EXPECT_FALSE(
+      mapper.refine({}, {Pose::Identity(), Pose::Identity(), Pose::Identity(), 0.1}).matched);
   mapper.clear();
   EXPECT_TRUE(mapper.empty());
   const Features features = features_at(hall(), pose_of(0, 4, kMadeHeight), 53, kMadeHeight);
-  EXPECT_FALSE(
-      mapper.refine(features, {pose_of(0, 4, kMadeHeight), pose_of(0, 4, kMadeHeight), Pose::Identity(), 0.1}).matched);
+  EXPECT_FALSE(mapper
+                   .refine(features, {pose_of(0, 4, kMadeHeight), pose_of(0, 4, kMadeHeight),
+                                      Pose::Identity(), 0.1})
+                   .matched);
 }
 
 TEST(Mapper, ATunnelWithoutEndKeepsTheGuessAlongItsAxis) {
@@ -144,8 +148,8 @@ TEST(Mapper, ATunnelWithoutEndKeepsTheGuessAlongItsAxis) {
   }
   const Pose truth = pose_of(2.0, 0.1, kHeight, 1.0);
   const Pose guess = pose_of(2.4, 0.0, kHeight, 0.0);
-  const MapMatch match =
-      mapper.refine(features_at(corridor(), truth, 54, kHeight), {guess, guess, Pose::Identity(), 0.1});
+  const MapMatch match = mapper.refine(features_at(corridor(), truth, 54, kHeight),
+                                       {guess, guess, Pose::Identity(), 0.1});
   ASSERT_TRUE(match.matched);
   ASSERT_EQ(match.localizability.degenerate_translations, 1);
   EXPECT_GT(std::abs(match.localizability.translation_axes(0, 0)), 0.99);

@@ -41,7 +41,9 @@ TEST(StampPose, BetweenTwoScansTheCubicIsTenTimesBetterThanConstantVelocity) {
 
 TEST(StampPose, TheCubicMeetsBothScans) {
   const Pose motion = drive(0.9).inverse() * drive(1.0);
-  const auto at = [&](double age) { return interpolate(motion, twist(0.9), twist(1.0), kPeriod, age); };
+  const auto at = [&](double age) {
+    return interpolate(motion, twist(0.9), twist(1.0), kPeriod, age);
+  };
   EXPECT_LT(error(at(0.0), Pose::Identity()), 1e-12);
   EXPECT_LT(error(at(-1e-9), Pose::Identity()), 1e-7);
   EXPECT_LT(error(at(1e-9 - kPeriod), motion.inverse()), 1e-7);

@@ -144,7 +144,7 @@ void select(const RangeImage& image, const FeatureSettings& settings, FeatureRow
 }
 
 FeaturePoint feature_point(const RangeImage& image, int row, std::uint32_t k, Label label) {
-  return {image.points[k], image.age[k],    image.intensity[k], static_cast<std::uint16_t>(row),
+  return {image.points[k], image.age[k], image.intensity[k], static_cast<std::uint16_t>(row),
           image.column[k], label};
 }
 
@@ -181,8 +181,8 @@ Features extract(const RangeImage& image, const Segmentation& segmentation,
   return features;
 }
 
-// All that stands on the ground but smooth surfaces, whose points tell nothing along them: the pattern
-// in which they were seen travels with the sensor.
+// All that stands on the ground but smooth surfaces, whose points tell nothing along them: the
+// pattern in which they were seen travels with the sensor.
 std::vector<FeaturePoint> scattered_points(const RangeImage& image,
                                            const Segmentation& segmentation,
                                            const std::vector<std::uint8_t>& smooth) {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <vector>
-
-#include <Eigen/Core>
 
 namespace lego_loam_sc {
 
@@ -19,8 +18,8 @@ struct PackedPoint {
 
   /// LiDAR frame of the key frame, m.
   Eigen::Vector3f position() const {
-    return kStep * Eigen::Vector3f(static_cast<float>(x), static_cast<float>(y),
-                                   static_cast<float>(z));
+    return kStep *
+           Eigen::Vector3f(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z));
   }
 };
 
@@ -31,11 +30,11 @@ PackedPoint pack(const Eigen::Vector3f& position, float intensity);
 /// de-skewed and thinned out.
 struct KeyFrame {
   std::int64_t reference_ns = 0;
-  double travelled = 0.0;             ///< m along the path since the start
-  std::vector<PackedPoint> planars;   ///< of the large planar set
-  std::vector<PackedPoint> edges;     ///< of the large edge set
-  std::vector<PackedPoint> scattered; ///< of the scattered points
-  std::vector<PackedPoint> others;    ///< further points of ground and clusters, for the map
+  double travelled = 0.0;              ///< m along the path since the start
+  std::vector<PackedPoint> planars;    ///< of the large planar set
+  std::vector<PackedPoint> edges;      ///< of the large edge set
+  std::vector<PackedPoint> scattered;  ///< of the scattered points
+  std::vector<PackedPoint> others;     ///< further points of ground and clusters, for the map
 };
 
 /// The large sets and the scattered points as features again, for matching.

@@ -20,12 +20,9 @@ struct LoopCandidate {
 /// As it stands in loops.csv.
 constexpr std::string_view to_string(LoopCandidate::Detector detector) {
   switch (detector) {
-    case LoopCandidate::Detector::scan_context:
-      return "scan_context";
-    case LoopCandidate::Detector::radius:
-      return "radius";
-    case LoopCandidate::Detector::custom:
-      return "custom";
+    case LoopCandidate::Detector::scan_context: return "scan_context";
+    case LoopCandidate::Detector::radius: return "radius";
+    case LoopCandidate::Detector::custom: return "custom";
   }
   return "unknown";
 }

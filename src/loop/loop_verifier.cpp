@@ -66,8 +66,8 @@ Pose register_coarse_to_fine(const Features& query, LocalMap& map, Pose pose, do
       const double scale =
           robust_scale(correspondences, pose, kKernelSpreads, kMinScale, kMaxScale);
       const auto result = levenberg_marquardt<6>(
-          pose, 2,
-          [&](const Pose& at) { return normal_equations(correspondences, at, scale); }, perturb);
+          pose, 2, [&](const Pose& at) { return normal_equations(correspondences, at, scale); },
+          perturb);
       if (result.step < kConvergedStep) break;
     }
   }

@@ -14,14 +14,14 @@ namespace lego_loam_sc {
 /// Why a loop candidate was accepted or refused.
 enum class Verdict {
   accepted,
-  no_candidate,   ///< Scan Context distance above tau of equation (8)
-  no_match,       ///< too few points of the query meet the local map
+  no_candidate,  ///< Scan Context distance above tau of equation (8)
+  no_match,      ///< too few points of the query meet the local map
   low_overlap,
-  high_rmse,      ///< ICP score above the threshold
-  implausible,    ///< height, roll or pitch differ more than two visits of one place can
-  degenerate,     ///< the place does not fix the pose in all directions
-  inconsistent,   ///< contradicts the pose graph by more than drift can explain
-  contradicted,   ///< accepted at first, taken out because the optimised graph does not bear it
+  high_rmse,     ///< ICP score above the threshold
+  implausible,   ///< height, roll or pitch differ more than two visits of one place can
+  degenerate,    ///< the place does not fix the pose in all directions
+  inconsistent,  ///< contradicts the pose graph by more than drift can explain
+  contradicted,  ///< accepted at first, taken out because the optimised graph does not bear it
 };
 
 /// As it stands in loops.csv.
@@ -37,9 +37,9 @@ struct PlacedKeyFrame {
 struct LoopVerification {
   Verdict verdict = Verdict::no_match;
   Pose T_match_query = Pose::Identity();
-  double overlap = 0.0;                   ///< share of the query's points on the local map
-  double rmse = 0.0;                      ///< m, ICP score: residual of the inliers
-  Matrix6 covariance = Matrix6::Zero();   ///< of the perturbation of core/pose.hpp, match axes
+  double overlap = 0.0;                  ///< share of the query's points on the local map
+  double rmse = 0.0;                     ///< m, ICP score: residual of the inliers
+  Matrix6 covariance = Matrix6::Zero();  ///< of the perturbation of core/pose.hpp, match axes
 };
 
 /// Paper 2.3 (6): merges the key frames round the match into a local map, in the frame of the

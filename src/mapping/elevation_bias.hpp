@@ -18,7 +18,8 @@ namespace lego_loam_sc {
 class ElevationBias {
  public:
   /// Takes the residuals of a scan that was matched with the map. `solution`: normal equations of
-  /// all that determined the pose and the velocity of the sweep, there; `scale`: of the robust kernel, sigmas.
+  /// all that determined the pose and the velocity of the sweep, there; `scale`: of the robust
+  /// kernel, sigmas.
   void add(std::span<const Correspondence> correspondences, const Pose& T_map_lidar, double scale,
            const NormalEquations<12>& solution);
 

@@ -46,8 +46,8 @@ void match_with(std::vector<SurfaceMap>& maps, const std::vector<double>& reach,
       if (surface.kind == Surface::Kind::none) continue;
       const double weight = 1.0 / (range_noise * range_noise + surface.variance);
       const double range_difference = range - surface.range;
-      const Correspondence c{kind_of(surface), point,           surface.mean, surface.direction,
-                             weight,           range_difference, p.age};
+      const Correspondence c{kind_of(surface), point, surface.mean, surface.direction, weight,
+                             range_difference, p.age};
       if (distance(c, T_map_points) <= max_distance) correspondences.push_back(c);
       break;
     }
@@ -80,11 +80,11 @@ std::vector<Correspondence> LocalMap::match(const Features& features, const Pose
                                             int first_level) {
   std::vector<Correspondence> correspondences;
   match_with(planes_, reach_, features.planars_large, T_map_points, max_distance, range_noise,
-                      first_level, correspondences);
+             first_level, correspondences);
   match_with(lines_, reach_, features.edges_large, T_map_points, max_distance, range_noise,
-                      first_level, correspondences);
+             first_level, correspondences);
   match_with(scattered_, everywhere_, features.scattered, T_map_points, max_distance, range_noise,
-                      first_level, correspondences);
+             first_level, correspondences);
   return correspondences;
 }
 

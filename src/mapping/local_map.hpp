@@ -14,9 +14,10 @@ namespace lego_loam_sc {
 /// each of several voxel sizes. Serves the mapper and the verifier of loops.
 class LocalMap {
  public:
-  /// The finest voxels measure `voxel_size` (m), each of the `levels` twice the one before. Where the rows of
-  /// the sensor, `row_spacing` (rad) apart, are farther from each other than a block is wide, no surface
-  /// can be seen in it: such planar and edge points go to the coarser levels only. 0 = to all.
+  /// The finest voxels measure `voxel_size` (m), each of the `levels` twice the one before. Where
+  /// the rows of the sensor, `row_spacing` (rad) apart, are farther from each other than a block is
+  /// wide, no surface can be seen in it: such planar and edge points go to the coarser levels only.
+  /// 0 = to all.
   LocalMap(double voxel_size, int levels, double planarity, double row_spacing = 0.0);
 
   /// Adds the large sets and the scattered points, from `first_level` on (0 = finest).

@@ -23,8 +23,8 @@ constexpr int kHalvings = 2;
 // The map is searched for voxels out of reach after this share of its radius has been driven.
 constexpr double kEvictionShare = 0.1;
 
-// A sweep that is being matched: its pose, and the change of its velocity since it was de-skewed, both in
-// the map's axes at the reference time.
+// A sweep that is being matched: its pose, and the change of its velocity since it was de-skewed,
+// both in the map's axes at the reference time.
 struct Sweep {
   Pose T_map_lidar;
   Vector6 velocity_change = Vector6::Zero();
@@ -32,8 +32,8 @@ struct Sweep {
 
 using Vector12 = Eigen::Matrix<double, 12, 1>;
 
-// A velocity as unknown is what it moves in this time, s: half a sweep or so. Then a step of it is as large
-// as what it does to the points.
+// A velocity as unknown is what it moves in this time, s: half a sweep or so. Then a step of it is
+// as large as what it does to the points.
 constexpr double kVelocityUnit = 0.05;
 
 Sweep changed(const Sweep& sweep, const Vector12& delta) {
@@ -54,7 +54,8 @@ Vector6 in_axes_of_lidar(const Sweep& sweep) {
   return change;
 }
 
-// What de-skewing with a twist that differs by `change` would have done to the points, to first order.
+// What de-skewing with a twist that differs by `change` would have done to the points, to first
+// order.
 void move_on(std::vector<Correspondence>& correspondences, const Vector6& change) {
   for (Correspondence& c : correspondences)
     c.point += c.age * (change.head<3>() + change.tail<3>().cross(c.point));
@@ -102,7 +103,8 @@ class VelocityPrior {
     // The mean velocity of the motion is that of half a period ago.
     const double t = std::max(0.5 * seconds * acceleration, kTied);
     const double r = std::max(0.5 * seconds * angular_acceleration, kTied);
-    information_ << Eigen::Vector3d::Constant(1.0 / (t * t)), Eigen::Vector3d::Constant(1.0 / (r * r));
+    information_ << Eigen::Vector3d::Constant(1.0 / (t * t)),
+        Eigen::Vector3d::Constant(1.0 / (r * r));
   }
 
   Vector6 mean(const Pose& T_map_lidar) const {
@@ -115,8 +117,7 @@ class VelocityPrior {
     Eigen::Matrix<double, 6, 12> J = Eigen::Matrix<double, 6, 12>::Zero();
     J.block<3, 3>(0, 6) = J.block<3, 3>(3, 9) = to_lidar;
     J.leftCols<6>() = J.rightCols<6>() * (-1.0 / seconds_);
-    const Vector6 e =
-        twist + J.rightCols<6>() * at.velocity_change - mean(at.T_map_lidar);
+    const Vector6 e = twist + J.rightCols<6>() * at.velocity_change - mean(at.T_map_lidar);
     equations.H += J.transpose() * information_.asDiagonal() * J;
     equations.g += J.transpose() * (information_.cwiseProduct(e));
     equations.cost += 0.5 * e.dot(information_.cwiseProduct(e));
@@ -128,8 +129,8 @@ class VelocityPrior {
   Vector6 information_;
 };
 
-// In directions that the map does not hold the odometry has matched noise with noise, which stands still: there
-// the last motion goes on instead.
+// In directions that the map does not hold the odometry has matched noise with noise, which stands
+// still: there the last motion goes on instead.
 Pose predicted_where_degenerate(const ScanGuess& guess, const Localizability& l) {
   Vector6 delta;
   delta << guess.T_map_predicted.translation() - guess.T_map_lidar.translation(),
@@ -166,7 +167,8 @@ MapMatch Mapper::refine(const Features& features, const ScanGuess& guess) {
   MapMatch match;
   match.T_map_lidar = guess.T_map_lidar;
   const double prior_rotation = radians(settings_.prior_rotation_deg);
-  match.covariance.diagonal() << Eigen::Vector3d::Constant(std::pow(settings_.prior_translation, 2)),
+  match.covariance.diagonal() << Eigen::Vector3d::Constant(
+      std::pow(settings_.prior_translation, 2)),
       Eigen::Vector3d::Constant(prior_rotation * prior_rotation);
   Features points;
   double spacing = settings_.match_spacing;
@@ -193,9 +195,8 @@ MapMatch Mapper::refine(const Features& features, const ScanGuess& guess) {
   std::vector<Correspondence> correspondences;
   double scale = kMaxScale;
   for (int k = 0; k < settings_.associations; ++k) {
-    correspondences =
-        map_.match(deskew(points, twist), pose, settings_.max_distance, range_noise_,
-                   std::min(first_level_, settings_.levels - 1));
+    correspondences = map_.match(deskew(points, twist), pose, settings_.max_distance, range_noise_,
+                                 std::min(first_level_, settings_.levels - 1));
     match.matches = static_cast<int>(correspondences.size());
     if (match.matches < settings_.min_matches ||
         match.matches < settings_.min_matched_share * match.points)

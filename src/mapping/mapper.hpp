@@ -15,13 +15,14 @@ namespace lego_loam_sc {
 /// Outcome of matching one scan against the local map.
 struct MapMatch {
   Pose T_map_lidar = Pose::Identity();  ///< at the scan's reference time
-  Vector6 twist = Vector6::Zero();      ///< of the sensor at that time, m/s and rad/s in its own frame
-  bool matched = false;                 ///< false: the pose is the guess
-  int points = 0;                       ///< that were to be matched
-  int matches = 0;                      ///< of them found a surface
+  Vector6 twist = Vector6::Zero();  ///< of the sensor at that time, m/s and rad/s in its own frame
+  bool matched = false;             ///< false: the pose is the guess
+  int points = 0;                   ///< that were to be matched
+  int matches = 0;                  ///< of them found a surface
   int iterations = 0;
-  double rmse = 0.0;                      ///< m, of the matched points with their robust weights
-  Matrix6 covariance = Matrix6::Zero();   ///< of the perturbation of core/pose.hpp; the prior's if not matched
+  double rmse = 0.0;  ///< m, of the matched points with their robust weights
+  Matrix6 covariance =
+      Matrix6::Zero();  ///< of the perturbation of core/pose.hpp; the prior's if not matched
   Localizability localizability;
 };
 
@@ -31,7 +32,7 @@ struct ScanGuess {
   Pose T_map_predicted = Pose::Identity();     ///< the same if the last motion goes on
   Pose T_previous_current = Pose::Identity();  ///< motion since the previous scan
   double seconds = 0.1;                        ///< of that motion
-  bool measured = true;                        ///< by the odometry; false: the pose is the prediction
+  bool measured = true;  ///< by the odometry; false: the pose is the prediction
 };
 
 /// Scan-to-map refinement, paper 2.3 (4).
@@ -48,8 +49,9 @@ class Mapper {
   /// it is not to be estimated.
   double elevation_bias() const { return elevation_bias_.value(); }
 
-  /// Adds features that are already de-skewed, unless the sensor has hardly moved since the last ones: what
-  /// it sees while it stands adds nothing but the pattern of its beams. Forgets what is out of reach.
+  /// Adds features that are already de-skewed, unless the sensor has hardly moved since the last
+  /// ones: what it sees while it stands adds nothing but the pattern of its beams. Forgets what is
+  /// out of reach.
   void insert(const Features& deskewed, const Pose& T_map_lidar);
 
   void clear();
@@ -60,7 +62,7 @@ class Mapper {
   double range_noise_;
   LocalMap map_;
   ElevationBias elevation_bias_;
-  int first_level_ = 0;  // of the map that the present place is worth: the finest is for small spaces
+  int first_level_ = 0;  // of the map: the finest voxels are for small spaces
   std::optional<Eigen::Vector3d> last_insertion_;
   Eigen::Vector3d last_eviction_ = Eigen::Vector3d::Zero();
 };

@@ -14,13 +14,14 @@ namespace {
 constexpr std::uint32_t kMinPoints = 6;
 // Standard deviation along a surface, in voxels, below which its orientation is a guess.
 constexpr double kMinSpread = 0.15;
-// Standard deviation of a direction, rad, from the noise of the points that it is fitted to, above which it
-// says more about them than about the surface: a quarter of the angle at which a surface begins to count as
-// a constraint across it (localizability.cpp).
+// Standard deviation of a direction, rad, from the noise of the points that it is fitted to, above
+// which it says more about them than about the surface: a quarter of the angle at which a surface
+// begins to count as a constraint across it (localizability.cpp).
 constexpr double kMaxTilt = 0.05;
 // A kept fit is good until its points have grown by this share.
 constexpr double kGrowth = 0.1;
-// A block is looked at again after one insertion more for so many points, and after so many at the latest.
+// A block is looked at again after one insertion more for so many points, and after so many at the
+// latest.
 constexpr std::uint32_t kPointsPerRevision = 16;
 constexpr std::uint32_t kLongestRest = 10;
 
@@ -35,8 +36,7 @@ Eigen::Vector3d SurfaceMap::corner_of(const Cell& cell, double cells) const {
   return (corner.array() + cells).matrix() * settings_.voxel_size;
 }
 
-void SurfaceMap::insert(std::span<const Eigen::Vector3d> points,
-                        std::span<const double> ranges) {
+void SurfaceMap::insert(std::span<const Eigen::Vector3d> points, std::span<const double> ranges) {
   // The table is larger than the caches: each voxel is fetched a few points ahead.
   constexpr std::size_t kAhead = 8;
   std::array<std::optional<Cell>, kAhead> ahead;
@@ -88,8 +88,7 @@ const Surface& SurfaceMap::surface_at(const Eigen::Vector3d& point) {
   return block.surface;
 }
 
-Surface::Kind SurfaceMap::kind_of(const Eigen::Vector3d& variance,
-                                   std::uint32_t count) const {
+Surface::Kind SurfaceMap::kind_of(const Eigen::Vector3d& variance, std::uint32_t count) const {
   const double spread = std::pow(kMinSpread * settings_.voxel_size, 2);
   const double ratio = std::min(settings_.planarity, kMaxTilt * kMaxTilt * count);
   const bool plane = variance[1] >= spread && variance[0] <= ratio * variance[1];

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "mapping/voxel_table.hpp"
 
@@ -33,8 +32,8 @@ struct SurfaceMapSettings {
 /// points that ever fell into it, so that a surface averages the noise of many scans. A surface is
 /// fitted to a block of 2 x 2 x 2 voxels. Blocks overlap: each place belongs to the one whose
 /// middle is nearest, hence lies at least half a voxel from its border, and no surface is cut in
-/// two at the border of a voxel. Fits are kept until enough points have come; the more a block has, the
-/// less often that is looked at.
+/// two at the border of a voxel. Fits are kept until enough points have come; the more a block has,
+/// the less often that is looked at.
 class SurfaceMap {
  public:
   explicit SurfaceMap(const SurfaceMapSettings& settings);
@@ -45,7 +44,8 @@ class SurfaceMap {
 
   /// The surface of the block round `point`; kind `none` where there is no clear one
   /// (of a map of `point`s: where there are few points). A plane has
-  /// variances l1 <= l2 <= l3 along its axes with l1 <= planarity * l2, a line l2 <= planarity * l3.
+  /// variances l1 <= l2 <= l3 along its axes with l1 <= planarity * l2, a line l2 <= planarity *
+  /// l3.
   const Surface& surface_at(const Eigen::Vector3d& point);
 
   /// True when the voxel of `point` holds points.
@@ -61,9 +61,9 @@ class SurfaceMap {
   // Numbers are relative to the middle of the voxel or block, so that floats serve.
   struct Voxel {
     std::uint32_t count = 0;
-    float range = 0.0f;                                    // sum, m
-    Eigen::Vector3f sum = Eigen::Vector3f::Zero();         // of the points
-    std::array<float, 6> square{};                         // sums of xx yy zz xy xz yz
+    float range = 0.0f;                             // sum, m
+    Eigen::Vector3f sum = Eigen::Vector3f::Zero();  // of the points
+    std::array<float, 6> square{};                  // sums of xx yy zz xy xz yz
   };
   struct Block {
     std::uint32_t due = 0;    // revision of the map at which the block is looked at again
@@ -75,7 +75,8 @@ class SurfaceMap {
   Eigen::Vector3d corner_of(const Cell& cell, double cells) const;
   /// `variance`: along the axes of a block's points, ascending, m^2.
   Surface::Kind kind_of(const Eigen::Vector3d& variance, std::uint32_t count) const;
-  Surface fit(const std::array<const Voxel*, 8>& voxels, std::uint32_t count, const Cell& corner) const;
+  Surface fit(const std::array<const Voxel*, 8>& voxels, std::uint32_t count,
+              const Cell& corner) const;
 
   SurfaceMapSettings settings_;
   VoxelTable<Voxel> voxels_;

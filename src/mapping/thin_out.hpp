@@ -5,7 +5,8 @@
 
 namespace lego_loam_sc {
 
-/// The large sets and the scattered points, each with one point for each voxel of `spacing` m (0 = all).
+/// The large sets and the scattered points, each with one point for each voxel of `spacing` m (0 =
+/// all).
 Features thin_out(const Features& features, double spacing);
 
 }  // namespace lego_loam_sc

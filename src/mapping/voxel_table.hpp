@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
-
-#include <Eigen/Core>
 
 namespace lego_loam_sc {
 
@@ -25,7 +24,9 @@ constexpr VoxelKey pack_cell(std::int64_t x, std::int64_t y, std::int64_t z) {
   return bits(x) << 42 | bits(y) << 21 | bits(z);
 }
 
-constexpr VoxelKey pack_cell(const Cell& cell) { return pack_cell(cell[0], cell[1], cell[2]); }
+constexpr VoxelKey pack_cell(const Cell& cell) {
+  return pack_cell(cell[0], cell[1], cell[2]);
+}
 
 /// The cell of a key.
 constexpr Cell unpack_cell(VoxelKey key) {

@@ -42,9 +42,9 @@ class LogSum {
   double sum_ = 0.0;
 };
 
-// Gives J'J and J'r of one weighted distance to `add` and returns 1 + (sigmas / scale)^2, whose logarithm
-// is the cost. `rotated`: the point less the source's origin, in axes of the target; `moved`: the point
-// in the target frame.
+// Gives J'J and J'r of one weighted distance to `add` and returns 1 + (sigmas / scale)^2, whose
+// logarithm is the cost. `rotated`: the point less the source's origin, in axes of the target;
+// `moved`: the point in the target frame.
 template <class Add>
 double linearise(const Correspondence& c, const Eigen::Vector3d& rotated,
                  const Eigen::Vector3d& moved, double scale, Add&& add) {
@@ -94,8 +94,7 @@ double spread(std::span<const Correspondence> correspondences, const Pose& T_tar
   if (correspondences.empty()) return 0.0;
   std::vector<double> distances;
   distances.reserve(correspondences.size());
-  for (const Correspondence& c : correspondences)
-    distances.push_back(distance(c, T_target_source));
+  for (const Correspondence& c : correspondences) distances.push_back(distance(c, T_target_source));
   return robust_sigma(distances);
 }
 

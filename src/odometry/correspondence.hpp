@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <span>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "core/pose.hpp"
 #include "odometry/levenberg_marquardt.hpp"
@@ -17,10 +16,11 @@ struct Correspondence {
   enum class Kind { plane, line, point };
 
   Kind kind = Kind::plane;
-  Eigen::Vector3d point;      ///< in the source frame, m
-  Eigen::Vector3d anchor;     ///< on the plane or line or the point itself, in the target frame, m
-  Eigen::Vector3d direction;  ///< unit normal of the plane, or unit direction of the line; 0 of a point
-  double weight = 1.0;        ///< 1 / variance of the distance, 1/m^2
+  Eigen::Vector3d point;   ///< in the source frame, m
+  Eigen::Vector3d anchor;  ///< on the plane or line or the point itself, in the target frame, m
+  Eigen::Vector3d
+      direction;        ///< unit normal of the plane, or unit direction of the line; 0 of a point
+  double weight = 1.0;  ///< 1 / variance of the distance, 1/m^2
   double range_difference = 0.0;  ///< m; horizontal range of the point less that of the plane
   double age = 0.0;               ///< s after the reference time at which the point was seen
 };

@@ -21,14 +21,13 @@ class SweepMotion {
     const float position = (age + span_) * steps_per_second_;
     const int step = std::clamp(static_cast<int>(position), 0, kSteps - 1);
     const float share = position - static_cast<float>(step);
-    const Transform transform =
-        (1.0f - share) * transforms_[step] + share * transforms_[step + 1];
+    const Transform transform = (1.0f - share) * transforms_[step] + share * transforms_[step + 1];
     return transform.leftCols<3>() * point + transform.col(3);
   }
 
  private:
-  // Transforms at equal steps of age, blended linearly: over 0.1 s at even 10 rad/s the blend is off
-  // by 3e-5 of the range.
+  // Transforms at equal steps of age, blended linearly: over 0.1 s at even 10 rad/s the blend is
+  // off by 3e-5 of the range.
   static constexpr int kSteps = 64;
   using Transform = Eigen::Matrix<float, 3, 4>;
   std::array<Transform, kSteps + 1> transforms_;

@@ -8,6 +8,9 @@
 namespace lego_loam_sc {
 namespace {
 
+// Cosine below which a constraint counts as lying across a direction: 78 degrees.
+constexpr double kAcross = 0.2;
+
 // Squared cosine, or nothing for what lies across.
 double contribution(double squared_cosine) {
   return squared_cosine < kAcross * kAcross ? 0.0 : squared_cosine;

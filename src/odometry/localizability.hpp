@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <span>
-
 #include <Eigen/Core>
+#include <span>
 
 #include "core/pose.hpp"
 #include "odometry/correspondence.hpp"
 
 namespace lego_loam_sc {
-
-/// Cosine between a constraint and a direction below which it does not count along it: 78 degrees.
-constexpr double kAcross = 0.2;
 
 /// How well each direction of a pose is held by the correspondences of a match. Rotation and
 /// translation are judged apart, because their units differ. The strength of a direction is the

@@ -31,8 +31,7 @@ constexpr std::array<int, 6> kAllUnknowns = {0, 1, 2, 3, 4, 5};
 template <std::size_t N>
 LevenbergMarquardtResult solve(std::span<const Correspondence> correspondences,
                                const std::array<int, N>& unknowns, int max_iterations, Pose& pose) {
-  const double scale =
-      robust_scale(correspondences, pose, kKernelSpreads, kMinScale, kMaxScale);
+  const double scale = robust_scale(correspondences, pose, kKernelSpreads, kMinScale, kMaxScale);
   return levenberg_marquardt<N>(
       pose, max_iterations,
       [&](const Pose& at) {
@@ -48,8 +47,8 @@ LevenbergMarquardtResult solve(std::span<const Correspondence> correspondences,
 // Searches correspondences anew and solves until the pose stands still. `associate(pose)` returns
 // the correspondences, fewer than `needed` of them mean failure.
 template <std::size_t N, class Associate>
-bool refine(Associate&& associate, const std::array<int, N>& unknowns, int needed,
-            int associations, int iterations, Pose& pose, int& total_iterations) {
+bool refine(Associate&& associate, const std::array<int, N>& unknowns, int needed, int associations,
+            int iterations, Pose& pose, int& total_iterations) {
   for (int k = 0; k < associations; ++k) {
     const std::vector<Correspondence> correspondences = associate(pose);
     if (static_cast<int>(correspondences.size()) < needed) return false;
@@ -96,8 +95,7 @@ std::vector<FeaturePoint> ground_of(const std::vector<FeaturePoint>& points) {
 
 // Something is always near enough to be matched, even in a scan of another place; but then the
 // distances that remain are large.
-bool fits(const std::vector<Correspondence>& matched, Correspondence::Kind kind,
-          const Pose& pose) {
+bool fits(const std::vector<Correspondence>& matched, Correspondence::Kind kind, const Pose& pose) {
   std::vector<Correspondence> of_kind;
   std::copy_if(matched.begin(), matched.end(), std::back_inserter(of_kind),
                [&](const Correspondence& c) { return c.kind == kind; });
@@ -124,16 +122,16 @@ Motion Odometry::estimate(const Features& features, const Pose& guess, double se
   const std::vector<FeaturePoint> planars = evenly(features.planars_flat, settings_.max_points);
   // The points of a sweep are moved to its middle with the motion as estimated so far.
   const auto edges_at = [&](const Pose& pose) {
-    return associate_edges(deskew(edges, log_se3(pose) / seconds), *edges_, pose,
-                           settings_, range_noise_);
+    return associate_edges(deskew(edges, log_se3(pose) / seconds), *edges_, pose, settings_,
+                           range_noise_);
   };
   const bool on_ground = all_ground(planars);
   std::optional<FeatureIndex> everywhere;
   if (!on_ground) everywhere.emplace(planars_);
   const FeatureIndex& previous_planars = on_ground ? *ground_ : *everywhere;
   const auto planars_at = [&](const Pose& pose) {
-    return associate_planars(deskew(planars, log_se3(pose) / seconds),
-                             previous_planars, pose, settings_, range_noise_);
+    return associate_planars(deskew(planars, log_se3(pose) / seconds), previous_planars, pose,
+                             settings_, range_noise_);
   };
   const auto all_at = [&](const Pose& pose) {
     std::vector<Correspondence> all = planars_at(pose);
@@ -144,17 +142,15 @@ Motion Odometry::estimate(const Features& features, const Pose& guess, double se
 
   Pose pose = guess;
   if (settings_.two_step && on_ground) {
-    motion.solved =
-        refine(planars_at, kGroundUnknowns, settings_.min_planars, settings_.associations,
-               settings_.iterations, pose, motion.iterations) &&
-        refine(edges_at, kEdgeUnknowns, settings_.min_edges, settings_.associations,
-               settings_.iterations, pose, motion.iterations);
+    motion.solved = refine(planars_at, kGroundUnknowns, settings_.min_planars,
+                           settings_.associations, settings_.iterations, pose, motion.iterations) &&
+                    refine(edges_at, kEdgeUnknowns, settings_.min_edges, settings_.associations,
+                           settings_.iterations, pose, motion.iterations);
     if (motion.solved && settings_.polish_iterations > 0)
       refine(all_at, kAllUnknowns, 6, 1, settings_.polish_iterations, pose, motion.iterations);
   } else {
-    motion.solved =
-        refine(all_at, kAllUnknowns, settings_.min_edges + settings_.min_planars,
-               settings_.associations, settings_.iterations, pose, motion.iterations);
+    motion.solved = refine(all_at, kAllUnknowns, settings_.min_edges + settings_.min_planars,
+                           settings_.associations, settings_.iterations, pose, motion.iterations);
   }
   if (!motion.solved) return motion;
 

@@ -96,9 +96,9 @@ LoopVerification LoopCloser::verify(const LoopCandidate& candidate,
       key_frames[candidate.query].travelled - key_frames[candidate.match].travelled;
   // Far apart even if drift were at its worst: not worth an ICP.
   if (settings.consistency_sigmas > 0.0 &&
-      expected.translation().norm() >
-          settings_.scan_context.reach +
-              settings.consistency_sigmas * settings.drift_per_metre * travelled) {
+      expected.translation().norm() > settings_.scan_context.reach + settings.consistency_sigmas *
+                                                                         settings.drift_per_metre *
+                                                                         travelled) {
     LoopVerification far;
     far.verdict = Verdict::inconsistent;
     return far;

@@ -61,7 +61,8 @@ KeyFrame make_key_frame(const RangeImage& image, const Segmentation& segmentatio
   const float near = static_cast<float>(0.25 * spacing * spacing);
   Eigen::Vector3f last = Eigen::Vector3f::Constant(std::numeric_limits<float>::max());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (segmentation.label[i] == Label::outlier || (points[i] - last).squaredNorm() < near) continue;
+    if (segmentation.label[i] == Label::outlier || (points[i] - last).squaredNorm() < near)
+      continue;
     last = points[i];
     if (take(points[i])) key_frame.others.push_back(pack(points[i], image.intensity[i]));
   }

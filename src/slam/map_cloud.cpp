@@ -12,7 +12,8 @@ std::vector<MapPoint> make_map(std::span<const KeyFrame> key_frames,
   std::vector<MapPoint> map;
   for (std::size_t k = 0; k < key_frames.size(); ++k) {
     const KeyFrame& key_frame = key_frames[k];
-    for (const auto* cloud : {&key_frame.planars, &key_frame.edges, &key_frame.scattered, &key_frame.others}) {
+    for (const auto* cloud :
+         {&key_frame.planars, &key_frame.edges, &key_frame.scattered, &key_frame.others}) {
       for (const PackedPoint& point : *cloud) {
         const Eigen::Vector3d p = T_map_key[k] * point.position().cast<double>();
         const auto key = key_of(p / voxel_size);

@@ -142,7 +142,8 @@ ScanReport Slam::State::process(const Scan& scan) {
       first ? sensor.period
             : std::max(seconds_between(previous.reference_ns, image.reference_ns), 1e-3);
 
-  // The map begins at the first scan's stamp; how it moved by then is only known when it is done again.
+  // The map begins at the first scan's stamp; how it moved by then is only known when it is done
+  // again.
   const double stamp_age = seconds_between(image.reference_ns, time->time_ns);
   if (first)
     previous.T_map_lidar = previous.T_odom_lidar = extrapolate(twist, -(seconds + stamp_age));
@@ -165,13 +166,14 @@ ScanReport Slam::State::process(const Scan& scan) {
   Features features_deskewed;
   if (good) {
     if (!first && time->jump_s == 0.0)
-      twist = log_se3(settings.mapping.every == 1 ? T_previous_current : motion.T_previous_current) /
-              seconds;
+      twist =
+          log_se3(settings.mapping.every == 1 ? T_previous_current : motion.T_previous_current) /
+          seconds;
     travelled += T_previous_current.translation().norm();
     current.twist = match.matched ? match.twist : twist;
-    T_reference_stamp = first ? extrapolate(current.twist, stamp_age)
-                              : interpolate(T_previous_current, previous.twist, current.twist, seconds,
-                                            stamp_age);
+    T_reference_stamp =
+        first ? extrapolate(current.twist, stamp_age)
+              : interpolate(T_previous_current, previous.twist, current.twist, seconds, stamp_age);
     previous = current;
     features_deskewed = deskew(features, current.twist);
     odometry.set_previous(features_deskewed);
@@ -211,15 +213,15 @@ Motion Slam::State::predict_and_match(const Features& features, double seconds,
   return motion;
 }
 
-// LiDAR mapping, 2.3 (4): the first good scan makes the map, every n-th of the others is matched with it,
-// from the odometry's motion or, when that does not hold, from the prediction.
+// LiDAR mapping, 2.3 (4): the first good scan makes the map, every n-th of the others is matched
+// with it, from the odometry's motion or, when that does not hold, from the prediction.
 MapMatch Slam::State::refine(const Features& features, const Motion& motion, double seconds,
                              ScanReport& report) {
   const Pose predicted = exp_se3(twist * seconds);
   const auto refine_from = [&](const Pose& T_previous_current, bool measured) {
-    return mapper.refine(features, {previous.T_map_lidar * T_previous_current,
-                                    previous.T_map_lidar * predicted, T_previous_current, seconds,
-                                    measured});
+    return mapper.refine(
+        features, {previous.T_map_lidar * T_previous_current, previous.T_map_lidar * predicted,
+                   T_previous_current, seconds, measured});
   };
   MapMatch match;
   match.T_map_lidar = previous.T_map_lidar * motion.T_previous_current;
@@ -267,10 +269,10 @@ void Slam::State::add_key_frame(KeyFrame key_frame, const MapMatch& match, ScanC
   if (number == 0) {
     graph.add_first(match.T_map_lidar);
   } else {
-    const Matrix6 covariance = odometry_covariance(
-        match.covariance, match.T_map_lidar.linear(), match.localizability, settings.graph);
-    graph.add_key_frame({number - 1, number, graph.poses().back().inverse() * match.T_map_lidar,
-                         covariance});
+    const Matrix6 covariance = odometry_covariance(match.covariance, match.T_map_lidar.linear(),
+                                                   match.localizability, settings.graph);
+    graph.add_key_frame(
+        {number - 1, number, graph.poses().back().inverse() * match.T_map_lidar, covariance});
   }
   key_frames.push_back(std::move(key_frame));
   loop_closer.add_key_frame(std::move(context));
@@ -324,12 +326,13 @@ ScanReport Slam::process(const Scan& scan) {
   return report;
 }
 
-// A drive may begin at speed, but only the second scan tells the motion that the first sweep is to be
-// de-skewed with. So both are processed anew, knowing it, until it is right.
+// A drive may begin at speed, but only the second scan tells the motion that the first sweep is to
+// be de-skewed with. So both are processed anew, knowing it, until it is right.
 ScanReport Slam::begin_again(const Scan& first, const Scan& second, ScanReport report) {
   for (int k = 0; k < kBeginnings; ++k) {
     const Vector6 motion = state_->twist * state_->sensor.period;
-    if (report.status > Status::odometry_only || motion.head<3>().norm() < state_->sensor.range_noise)
+    if (report.status > Status::odometry_only ||
+        motion.head<3>().norm() < state_->sensor.range_noise)
       break;
     auto again = std::make_unique<State>(state_->given_sensor, state_->settings,
                                          state_->arena.max_concurrency(), state_->detector);
@@ -343,11 +346,23 @@ ScanReport Slam::begin_again(const Scan& first, const Scan& second, ScanReport r
   return report;
 }
 
-const Trajectory& Slam::odometry() const { return state_->live; }
-Trajectory Slam::trajectory() const { return state_->fusion.fuse(state_->graph.poses()); }
-const std::vector<KeyFrame>& Slam::key_frames() const { return state_->key_frames; }
-const PoseGraph& Slam::graph() const { return state_->graph; }
-double Slam::sensor_height() const { return state_->height; }
-Eigen::Matrix3d Slam::R_level_lidar() const { return R_base_lidar(state_->sensor); }
+const Trajectory& Slam::odometry() const {
+  return state_->live;
+}
+Trajectory Slam::trajectory() const {
+  return state_->fusion.fuse(state_->graph.poses());
+}
+const std::vector<KeyFrame>& Slam::key_frames() const {
+  return state_->key_frames;
+}
+const PoseGraph& Slam::graph() const {
+  return state_->graph;
+}
+double Slam::sensor_height() const {
+  return state_->height;
+}
+Eigen::Matrix3d Slam::R_level_lidar() const {
+  return R_base_lidar(state_->sensor);
+}
 
 }  // namespace lego_loam_sc

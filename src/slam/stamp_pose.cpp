@@ -3,7 +3,9 @@
 
 namespace lego_loam_sc {
 
-Pose extrapolate(const Vector6& twist, double age) { return exp_se3(twist * age); }
+Pose extrapolate(const Vector6& twist, double age) {
+  return exp_se3(twist * age);
+}
 
 Pose interpolate(const Pose& T_previous_current, const Vector6& twist_previous,
                  const Vector6& twist, double seconds, double age) {

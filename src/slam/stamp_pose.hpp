@@ -10,7 +10,8 @@ namespace lego_loam_sc {
 Pose extrapolate(const Vector6& twist, double age);
 
 /// The same when the stamp lies between the reference times of the scan before, `seconds` ago, and
-/// of this one: on the cubic through both poses with both velocities (Hermite). Elsewhere extrapolated.
+/// of this one: on the cubic through both poses with both velocities (Hermite). Elsewhere
+/// extrapolated.
 Pose interpolate(const Pose& T_previous_current, const Vector6& twist_previous,
                  const Vector6& twist, double seconds, double age);
 
