@@ -177,8 +177,11 @@ void bind_slam(nb::module_& module) {
           "map",
           [](const Slam& slam, double voxel_size) {
             if (!(voxel_size > 0.0)) throw std::invalid_argument("voxel_size must be above 0 m");
-            return to_numpy<float, 4>(
-                make_map(slam.key_frames(), slam.graph().poses(), voxel_size));
+            std::vector<Eigen::Vector4f> points;
+            for (const MapPoint& p :
+                 make_map(slam.key_frames(), slam.graph().poses(), voxel_size))
+              points.emplace_back(p.position.x(), p.position.y(), p.position.z(), p.intensity);
+            return to_numpy<float, 4>(std::move(points));
           },
           "voxel_size"_a = OutputSettings{}.map_voxel_size,
           "(n, 4): x y z in the map frame and intensity, a point for each voxel.")
