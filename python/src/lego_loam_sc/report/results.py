@@ -116,13 +116,16 @@ def _read_rows(path: Path) -> list[dict[str, str]]:
     return [row for row in rows if None not in row and None not in row.values()]
 
 
+_WORDS = ("status", "warnings", "errors", "delay_level")  # columns of scans.csv, the rest are numbers
+
+
 def _read_scans(path: Path) -> dict[str, np.ndarray]:
     rows = _read_rows(path)
     if not rows:
         raise InputError(f"{path} has no scan; run more scans")
     try:
         return {
-            name: np.array([row[name] for row in rows], str if name == "status" else float)
+            name: np.array([row[name] for row in rows], str if name in _WORDS else float)
             for name in rows[0]
         }
     except ValueError as error:
