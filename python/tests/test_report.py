@@ -24,7 +24,11 @@ FLAGS = (
     "--disable-component-update --disable-sync --use-gl=angle --use-angle=swiftshader "
     "--enable-unsafe-swiftshader"
 ).split()
-LOOPY = ["--set", "loop.min_travel=2", "--set", "loop.spacing=0.5"]
+LOOPY = [
+    *("--set", "loop.min_travel=2"),
+    *("--set", "loop.spacing=0.5"),
+    *("--set", "key_frames.distance=1"),
+]
 
 pytestmark = pytest.mark.skipif(not PROGRAM.exists(), reason="lego-loam-sc is not built")
 
