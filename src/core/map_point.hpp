@@ -13,6 +13,7 @@ struct MapPoint {
   float intensity = 0.0f;      ///< in the sensor's own unit
   std::int32_t key_frame = 0;  ///< its number
 
+  /// The same in all members.
   bool operator==(const MapPoint&) const = default;
 };
 

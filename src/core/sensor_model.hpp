@@ -30,6 +30,7 @@ struct SensorModel {
 
   /// Number of beams.
   int rows() const { return static_cast<int>(elevation_deg.size()); }
+  /// Whether its mounting turns it out of the level.
   bool tilted() const { return mount_roll_deg != 0.0 || mount_pitch_deg != 0.0; }
 };
 
