@@ -11,6 +11,7 @@
 
 namespace lego_loam_sc {
 
+/// A preset and how far its beams are from those of a sensor.
 struct NearestPreset {
   std::string name;
   double difference_deg;  ///< of the beams, on average
