@@ -4,7 +4,7 @@ import dataclasses
 import math
 
 import numpy as np
-from scipy.spatial.transform import Rotation, Slerp
+from scipy.spatial.transform import Rotation
 
 
 @dataclasses.dataclass(frozen=True)
@@ -33,13 +33,21 @@ class Trajectory:
         return Trajectory(self.stamps[:count], self.poses[:count])
 
     def at(self, stamps):
-        """Poses at other times, (k, 4, 4), interpolated; those outside are held at the ends."""
-        times = np.clip(stamps, self.stamps[0], self.stamps[-1])
-        poses = np.tile(np.eye(4), (len(times), 1, 1))
-        poses[:, :3, :3] = Slerp(self.stamps, rotations(self.poses))(times).as_matrix()
-        for axis in range(3):
-            poses[:, axis, 3] = np.interp(times, self.stamps, self.positions[:, axis])
-        return poses
+        """Poses at other times, (k, 4, 4): between two poses the motion from one to the other.
+
+        It goes on beyond the ends, as a sweep does after the last stamp, for as long as one motion
+        lasts and no further.
+        """
+        last = len(self.stamps) - 2
+        before = np.clip(np.searchsorted(self.stamps, stamps, side="right") - 1, 0, last)
+        duration = self.stamps[before + 1] - self.stamps[before]
+        share = np.clip((stamps - self.stamps[before]) / duration, -1.0, 2.0)
+        here, motion = self.poses[before], inverse(self.poses[before]) @ self.poses[before + 1]
+        part = np.tile(np.eye(4), (len(share), 1, 1))
+        turn = share[:, None] * rotations(motion).as_rotvec()
+        part[:, :3, :3] = Rotation.from_rotvec(turn).as_matrix()
+        part[:, :3, 3] = share[:, None] * motion[:, :3, 3]
+        return here @ part
 
 
 def rotations(poses):
