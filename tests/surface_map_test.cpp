@@ -53,6 +53,10 @@ std::vector<Vector3d> rod(const Vector3d& center, const Vector3d& direction, int
   return points;
 }
 
+Surface surface_at(SurfaceMap& map, const Vector3d& point) {
+  return map.surface_of(map.block_of(point));
+}
+
 double angle_between(const Vector3d& a, const Vector3d& b) {
   return std::asin(std::min(a.cross(b).norm(), 1.0));
 }
@@ -62,7 +66,7 @@ void expect_plane(const Surface& surface, const Vector3d& on_plane, const Vector
   EXPECT_LT(angle_between(surface.direction, normal), 0.01);
   EXPECT_LT(std::abs(normal.dot(surface.mean - on_plane)), 0.003);
   EXPECT_NEAR(std::sqrt(surface.variance), kSigma, 0.2 * kSigma);
-  EXPECT_NEAR(surface.direction.norm(), 1.0, 1e-12);
+  EXPECT_NEAR(surface.direction.norm(), 1.0, 1e-6);
 }
 
 TEST(SurfaceMap, FitsAPlaneThroughNoisyPointsWhereverItLiesAmongTheVoxels) {
@@ -71,7 +75,7 @@ TEST(SurfaceMap, FitsAPlaneThroughNoisyPointsWhereverItLiesAmongTheVoxels) {
     const Vector3d center = k * Vector3d(0.013, 0.027, 0.041) + Vector3d(7.0, -3.0, 1.0);
     SurfaceMap map({Surface::Kind::plane, kVoxel, 0.1});
     map.insert(disc(center, normal, 4000, 1));
-    expect_plane(map.surface_at(center), center, normal);
+    expect_plane(surface_at(map, center), center, normal);
   }
 }
 
@@ -81,7 +85,7 @@ TEST(SurfaceMap, FitsALineThroughNoisyPointsWhereverItLiesAmongTheVoxels) {
     const Vector3d center = k * Vector3d(0.013, 0.027, 0.041) + Vector3d(-2.0, 9.0, 0.0);
     SurfaceMap map({Surface::Kind::line, kVoxel, 0.1});
     map.insert(rod(center, direction, 3000, 2));
-    const Surface& surface = map.surface_at(center);
+    const Surface surface = surface_at(map, center);
     ASSERT_EQ(surface.kind, Surface::Kind::line);
     EXPECT_LT(angle_between(surface.direction, direction), 0.01);
     const Vector3d off = surface.mean - center;
@@ -94,7 +98,7 @@ TEST(SurfaceMap, APlaneOnTheBorderOfVoxelsIsNotCutInTwo) {
     SurfaceMap map({Surface::Kind::plane, kVoxel, 0.1});
     map.insert(disc({0.1, 0.1, z}, Vector3d::UnitZ(), 4000, 3));
     for (const double off : {-0.2, -0.01, 0.0, 0.01, 0.2})
-      expect_plane(map.surface_at({0.1, 0.1, z + off}), {0.0, 0.0, z}, Vector3d::UnitZ());
+      expect_plane(surface_at(map, {0.1, 0.1, z + off}), {0.0, 0.0, z}, Vector3d::UnitZ());
   }
 }
 
@@ -103,7 +107,7 @@ TEST(SurfaceMap, IsAsExactFarFromTheOrigin) {
   const Vector3d center(100'000.3, -99'999.7, 99'000.1);
   SurfaceMap map({Surface::Kind::plane, kVoxel, 0.1});
   map.insert(disc(center, normal, 4000, 4));
-  expect_plane(map.surface_at(center), center, normal);
+  expect_plane(surface_at(map, center), center, normal);
 }
 
 TEST(SurfaceMap, MorePointsMakeTheFitBetter) {
@@ -111,30 +115,30 @@ TEST(SurfaceMap, MorePointsMakeTheFitBetter) {
   const Vector3d center(1.0, 2.0, 3.0);
   SurfaceMap map({Surface::Kind::plane, kVoxel, 0.5});
   map.insert(disc(center, normal, 60, 5));
-  const double before = angle_between(map.surface_at(center).direction, normal);
+  const double before = angle_between(surface_at(map, center).direction, normal);
   for (unsigned seed = 6; seed < 26; ++seed) {
     map.insert(disc(center, normal, 500, seed));
-    map.surface_at(center);
+    surface_at(map, center);
   }
-  EXPECT_LT(angle_between(map.surface_at(center).direction, normal), 0.2 * before);
-  expect_plane(map.surface_at(center), center, normal);
+  EXPECT_LT(angle_between(surface_at(map, center).direction, normal), 0.2 * before);
+  expect_plane(surface_at(map, center), center, normal);
 }
 
 TEST(SurfaceMap, APlaceWithoutAClearSurfaceHasNone) {
   SurfaceMap planes({Surface::Kind::plane, kVoxel, 0.1});
-  EXPECT_EQ(planes.surface_at({0, 0, 0}).kind, Surface::Kind::none);
+  EXPECT_EQ(surface_at(planes, {0, 0, 0}).kind, Surface::Kind::none);
   planes.insert(disc({0.1, 0.1, 0.1}, Vector3d::UnitZ(), 5, 7));  // too few
-  EXPECT_EQ(planes.surface_at({0.1, 0.1, 0.1}).kind, Surface::Kind::none);
+  EXPECT_EQ(surface_at(planes, {0.1, 0.1, 0.1}).kind, Surface::Kind::none);
   planes.insert(rod({20.1, 0.1, 0.1}, Vector3d::UnitZ(), 1000, 8));
-  EXPECT_EQ(planes.surface_at({20.1, 0.1, 0.1}).kind, Surface::Kind::none);
+  EXPECT_EQ(surface_at(planes, {20.1, 0.1, 0.1}).kind, Surface::Kind::none);
   for (int axis = 0; axis < 3; ++axis)  // a corner
     planes.insert(disc({-20.1, 0.1, 0.1}, Vector3d::Unit(axis), 500, 9));
-  EXPECT_EQ(planes.surface_at({-20.1, 0.1, 0.1}).kind, Surface::Kind::none);
+  EXPECT_EQ(surface_at(planes, {-20.1, 0.1, 0.1}).kind, Surface::Kind::none);
   planes.insert(std::vector<Vector3d>(100, Vector3d(50.0, 0.0, 0.0)));
-  EXPECT_EQ(planes.surface_at({50.0, 0.0, 0.0}).kind, Surface::Kind::none);
+  EXPECT_EQ(surface_at(planes, {50.0, 0.0, 0.0}).kind, Surface::Kind::none);
   SurfaceMap lines({Surface::Kind::line, kVoxel, 0.1});
   lines.insert(disc({0.1, 0.1, 0.1}, Vector3d::UnitZ(), 1000, 10));
-  EXPECT_EQ(lines.surface_at({0.1, 0.1, 0.1}).kind, Surface::Kind::none);
+  EXPECT_EQ(surface_at(lines, {0.1, 0.1, 0.1}).kind, Surface::Kind::none);
 }
 
 TEST(SurfaceMap, PlacesOutOfReachOrNotFiniteHaveNothing) {
@@ -144,7 +148,7 @@ TEST(SurfaceMap, PlacesOutOfReachOrNotFiniteHaveNothing) {
   for (int k = 0; k < 10; ++k) map.insert(bad);
   EXPECT_EQ(map.size(), 0u);
   for (const Vector3d& p : bad) {
-    EXPECT_EQ(map.surface_at(p).kind, Surface::Kind::none);
+    EXPECT_EQ(surface_at(map, p).kind, Surface::Kind::none);
     EXPECT_FALSE(map.occupied(p));
   }
 }
@@ -154,16 +158,16 @@ TEST(SurfaceMap, ForgetsWhatIsFarAwayAndKeepsTheRest) {
   const Vector3d here(1.0, 1.0, 1.0), there(50.0, 1.0, 1.0);
   for (const Vector3d& center : {here, there}) {
     map.insert(disc(center, Vector3d::UnitZ(), 2000, 11));
-    expect_plane(map.surface_at(center), center, Vector3d::UnitZ());
+    expect_plane(surface_at(map, center), center, Vector3d::UnitZ());
     EXPECT_TRUE(map.occupied(center));
   }
   map.remove_beyond(here, 20.0);
-  expect_plane(map.surface_at(here), here, Vector3d::UnitZ());
-  EXPECT_EQ(map.surface_at(there).kind, Surface::Kind::none);
+  expect_plane(surface_at(map, here), here, Vector3d::UnitZ());
+  EXPECT_EQ(surface_at(map, there).kind, Surface::Kind::none);
   EXPECT_FALSE(map.occupied(there));
   map.clear();
   EXPECT_EQ(map.size(), 0u);
-  EXPECT_EQ(map.surface_at(here).kind, Surface::Kind::none);
+  EXPECT_EQ(surface_at(map, here).kind, Surface::Kind::none);
 }
 
 TEST(VoxelKey, TellsCellsApartAndRefusesWhatWouldAlias) {

@@ -60,8 +60,9 @@ Pose register_coarse_to_fine(const Features& query, LocalMap& map, Pose pose, do
                              const VerifierSettings& settings) {
   for (int level = settings.levels - 1; level >= 0; --level) {
     const double reach = kReachVoxels * settings.voxel_size * (1 << level);
+    MatchedSurfaces surfaces;
     for (int k = 0; k < settings.iterations; ++k) {
-      const auto correspondences = map.match(query, pose, reach, range_noise, level);
+      const auto correspondences = map.match(query, pose, reach, range_noise, level, surfaces);
       if (static_cast<int>(correspondences.size()) < kMinMatches) break;
       const double scale =
           robust_scale(correspondences, pose, kKernelSpreads, kMinScale, kMaxScale);
@@ -86,8 +87,9 @@ LoopVerification judge(const Features& query, LocalMap& map, const Pose& pose, d
   LoopVerification result;
   result.T_match_query = pose;
   result.overlap = overlap(query, map, pose);
+  MatchedSurfaces surfaces;
   const auto correspondences =
-      map.match(query, pose, kReachVoxels * settings.voxel_size, range_noise, 0);
+      map.match(query, pose, kReachVoxels * settings.voxel_size, range_noise, 0, surfaces);
   if (static_cast<int>(correspondences.size()) < kMinMatches) return result;
 
   const double scale = robust_scale(correspondences, pose, kKernelSpreads, kMinScale, kMaxScale);

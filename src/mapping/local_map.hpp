@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/pose.hpp"
@@ -9,6 +10,21 @@
 #include "odometry/correspondence.hpp"
 
 namespace lego_loam_sc {
+
+/// Voxel sizes that a map may have.
+constexpr int kMaxLevels = 6;
+
+/// What the points of one scan were matched with. While its pose settles most points stay in their
+/// blocks and need not be looked up again. Good for the same points, first level and state of the
+/// map.
+struct MatchedSurfaces {
+  struct Entry {
+    int level = -1;                          ///< the last that was looked at
+    std::array<VoxelKey, kMaxLevels> blocks{};  ///< on each level from the first to that
+    Surface surface;                         ///< none when no level has one
+  };
+  std::vector<Entry> planes, lines, scattered;
+};
 
 /// The surroundings as planes and lines: one surface map of planar and one of edge features for
 /// each of several voxel sizes. Serves the mapper and the verifier of loops.
@@ -24,9 +40,11 @@ class LocalMap {
   void insert(const Features& features, const Pose& T_map_points, int first_level = 0);
 
   /// The correspondences of the points of these sets that find a surface within `max_distance` (m)
-  /// on the finest level that has one, starting at `first_level` (0 = finest).
+  /// on the finest level that has one, starting at `first_level` (0 = finest). `last`: what was
+  /// found at another pose, or empty.
   std::vector<Correspondence> match(const Features& features, const Pose& T_map_points,
-                                    double max_distance, double range_noise, int first_level);
+                                    double max_distance, double range_noise, int first_level,
+                                    MatchedSurfaces& last);
 
   /// True when a point lies in the finest voxel of `point` (map frame).
   bool occupied(const Eigen::Vector3d& point);

@@ -17,7 +17,7 @@ constexpr double kKernelSpreads = 2.0;
 constexpr double kMinScale = 1.0;
 constexpr double kMaxScale = 20.0;
 // A degenerate direction is tied to the guess with this sigma, m or rad.
-constexpr double kTied = 1e-4;
+constexpr double kTied = 1e-6;
 // Times that the spacing of the points is halved in small spaces.
 constexpr int kHalvings = 2;
 // The map is searched for voxels out of reach after this share of its radius has been driven.
@@ -193,10 +193,11 @@ MapMatch Mapper::refine(const Features& features, const ScanGuess& guess) {
                                      radians(settings_.angular_acceleration_deg));
   Vector6 twist = velocity_prior.mean(pose);
   std::vector<Correspondence> correspondences;
+  MatchedSurfaces surfaces;
   double scale = kMaxScale;
   for (int k = 0; k < settings_.associations; ++k) {
     correspondences = map_.match(deskew(points, twist), pose, settings_.max_distance, range_noise_,
-                                 std::min(first_level_, settings_.levels - 1));
+                                 std::min(first_level_, settings_.levels - 1), surfaces);
     match.matches = static_cast<int>(correspondences.size());
     if (match.matches < settings_.min_matches ||
         match.matches < settings_.min_matched_share * match.points)

@@ -37,18 +37,20 @@ Eigen::Vector3d SurfaceMap::corner_of(const Cell& cell, double cells) const {
 }
 
 void SurfaceMap::insert(std::span<const Eigen::Vector3d> points, std::span<const double> ranges) {
-  // The table is larger than the caches: each voxel is fetched a few points ahead.
-  constexpr std::size_t kAhead = 8;
+  // The table is larger than the caches: each voxel is fetched some points ahead, in two steps.
+  constexpr std::size_t kAhead = 16;
   std::array<std::optional<Cell>, kAhead> ahead;
+  const auto planned = [&](std::size_t i) -> std::optional<Cell>& { return ahead[i % kAhead]; };
   for (std::size_t next = 0; next < points.size() + kAhead; ++next) {
-    std::optional<Cell>& cell = ahead[next % kAhead];
-    if (next >= kAhead && cell) {
+    if (next >= kAhead && planned(next)) {
       const std::size_t i = next - kAhead;
-      add(points[i], ranges.empty() ? 0.0 : ranges[i], *cell);
+      add(points[i], ranges.empty() ? 0.0 : ranges[i], *planned(i));
     }
-    if (next >= points.size()) continue;
-    cell = cell_of(points[next] / settings_.voxel_size);
-    if (cell) voxels_.prefetch(pack_cell(*cell));
+    planned(next).reset();
+    if (next < points.size()) planned(next) = cell_of(points[next] / settings_.voxel_size);
+    if (planned(next)) voxels_.prefetch(pack_cell(*planned(next)));
+    const std::size_t half = next + kAhead / 2;  // the same place as half the distance ago
+    if (planned(half)) voxels_.prefetch_value(pack_cell(*planned(half)));
   }
   ++revision_;
 }
@@ -67,25 +69,35 @@ void SurfaceMap::add(const Eigen::Vector3d& point, double range, const Cell& cel
   voxel.square[5] += d.y() * d.z();
 }
 
-const Surface& SurfaceMap::surface_at(const Eigen::Vector3d& point) {
-  const auto corner = cell_of((point / settings_.voxel_size).array() - 0.5);
-  if (!corner) return nothing_;
-  Block& block = blocks_.find_or_insert(pack_cell(*corner)).first;
-  if (revision_ < block.due) return block.surface;
+VoxelKey SurfaceMap::block_of(const Eigen::Vector3d& point) const {
+  return key_of((point / settings_.voxel_size).array() - 0.5).value_or(kNoBlock);
+}
 
+Surface SurfaceMap::surface_of(VoxelKey key) {
+  if (key == kNoBlock) return {};
+  const Cell corner = unpack_cell(key);
+  Block& block = blocks_.find_or_insert(key).first;
+  if (revision_ >= block.due) look_again(block, corner);
+  Surface surface;
+  surface.kind = block.kind;
+  surface.mean = corner_of(corner, 1.0) + block.mean.cast<double>();
+  surface.direction = block.direction.cast<double>();
+  surface.variance = block.variance;
+  surface.range = block.range;
+  return surface;
+}
+
+// Fits a surface anew when enough points have come.
+void SurfaceMap::look_again(Block& block, const Cell& corner) {
   std::array<const Voxel*, 8> voxels{};
   std::uint32_t count = 0;
   for (int i = 0; i < 8; ++i) {
-    const auto& [x, y, z] = *corner;
+    const auto& [x, y, z] = corner;
     voxels[i] = voxels_.find(pack_cell(x + (i & 1), y + ((i >> 1) & 1), z + ((i >> 2) & 1)));
     if (voxels[i]) count += voxels[i]->count;
   }
-  if (count >= kMinPoints && count > (1.0 + kGrowth) * block.count) {
-    block.surface = fit(voxels, count, *corner);
-    block.count = count;
-  }
+  if (count >= kMinPoints && count > (1.0 + kGrowth) * block.count) fit(voxels, count, block);
   block.due = revision_ + 1 + std::min(block.count / kPointsPerRevision, kLongestRest);
-  return block.surface;
 }
 
 Surface::Kind SurfaceMap::kind_of(const Eigen::Vector3d& variance, std::uint32_t count) const {
@@ -100,8 +112,8 @@ Surface::Kind SurfaceMap::kind_of(const Eigen::Vector3d& variance, std::uint32_t
   }
 }
 
-Surface SurfaceMap::fit(const std::array<const Voxel*, 8>& voxels, std::uint32_t count,
-                        const Cell& corner) const {
+void SurfaceMap::fit(const std::array<const Voxel*, 8>& voxels, std::uint32_t count,
+                     Block& block) const {
   // Sums of all voxels, moved to the middle of the block.
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
@@ -120,29 +132,27 @@ Surface SurfaceMap::fit(const std::array<const Voxel*, 8>& voxels, std::uint32_t
     sum += own_sum + v.count * o;
     range += v.range;
   }
-  const Eigen::Vector3d middle = corner_of(corner, 1.0);
   const Eigen::Vector3d mean = sum / count;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
   eigen.computeDirect(square / count - mean * mean.transpose());
   const Eigen::Vector3d variance = eigen.eigenvalues().cwiseMax(0.0);
 
-  Surface surface;
-  surface.mean = middle + mean;
-  surface.range = range / count;
-  surface.kind = kind_of(variance, count);
-  switch (surface.kind) {
+  block.count = count;
+  block.mean = mean.cast<float>();
+  block.range = static_cast<float>(range / count);
+  block.kind = kind_of(variance, count);
+  switch (block.kind) {
     case Surface::Kind::plane:
-      surface.direction = eigen.eigenvectors().col(0);
-      surface.variance = variance[0];
+      block.direction = eigen.eigenvectors().col(0).cast<float>();
+      block.variance = static_cast<float>(variance[0]);
       break;
     case Surface::Kind::line:
-      surface.direction = eigen.eigenvectors().col(2);
-      surface.variance = variance[1];
+      block.direction = eigen.eigenvectors().col(2).cast<float>();
+      block.variance = static_cast<float>(variance[1]);
       break;
-    case Surface::Kind::point: surface.variance = variance.mean(); break;
+    case Surface::Kind::point: block.variance = static_cast<float>(variance.mean()); break;
     case Surface::Kind::none: break;
   }
-  return surface;
 }
 
 bool SurfaceMap::occupied(const Eigen::Vector3d& point) {

@@ -28,6 +28,9 @@ struct SurfaceMapSettings {
   double planarity = 0.1;                     ///< largest ratio of the eigenvalues, see surface_at
 };
 
+/// No block of any map: the corners of the grid stay free, see voxel_table.hpp.
+constexpr VoxelKey kNoBlock = pack_cell(-kMaxCell, -kMaxCell, -kMaxCell);
+
 /// An incremental voxel map of surfaces. Each voxel keeps the count, sum and sum of squares of all
 /// points that ever fell into it, so that a surface averages the noise of many scans. A surface is
 /// fitted to a block of 2 x 2 x 2 voxels. Blocks overlap: each place belongs to the one whose
@@ -42,11 +45,18 @@ class SurfaceMap {
   /// ranges these are 0.
   void insert(std::span<const Eigen::Vector3d> points, std::span<const double> ranges = {});
 
-  /// The surface of the block round `point`; kind `none` where there is no clear one
-  /// (of a map of `point`s: where there are few points). A plane has
-  /// variances l1 <= l2 <= l3 along its axes with l1 <= planarity * l2, a line l2 <= planarity *
-  /// l3.
-  const Surface& surface_at(const Eigen::Vector3d& point);
+  /// The block that `point` belongs to; kNoBlock when it is out of the map's range.
+  VoxelKey block_of(const Eigen::Vector3d& point) const;
+
+  /// The surface of a block; kind `none` where there is no clear one (of a map of `point`s: where
+  /// there are few points). A plane has variances l1 <= l2 <= l3 along its axes with
+  /// l1 <= planarity * l2, a line l2 <= planarity * l3.
+  Surface surface_of(VoxelKey block);
+
+  /// The table is larger than the caches. Who will ask for many surfaces first fetches the places
+  /// of their blocks, then the blocks.
+  void prefetch(VoxelKey block) const { blocks_.prefetch(block); }
+  void prefetch_value(VoxelKey block) const { blocks_.prefetch_value(block); }
 
   /// True when the voxel of `point` holds points.
   bool occupied(const Eigen::Vector3d& point);
@@ -68,21 +78,24 @@ class SurfaceMap {
   struct Block {
     std::uint32_t due = 0;    // revision of the map at which the block is looked at again
     std::uint32_t count = 0;  // points at the last fit
-    Surface surface;
+    Surface::Kind kind = Surface::Kind::none;
+    Eigen::Vector3f mean = Eigen::Vector3f::Zero();
+    Eigen::Vector3f direction = Eigen::Vector3f::Zero();
+    float variance = 0.0f;
+    float range = 0.0f;
   };
 
   void add(const Eigen::Vector3d& point, double range, const Cell& cell);
   Eigen::Vector3d corner_of(const Cell& cell, double cells) const;
   /// `variance`: along the axes of a block's points, ascending, m^2.
   Surface::Kind kind_of(const Eigen::Vector3d& variance, std::uint32_t count) const;
-  Surface fit(const std::array<const Voxel*, 8>& voxels, std::uint32_t count,
-              const Cell& corner) const;
+  void look_again(Block& block, const Cell& corner);
+  void fit(const std::array<const Voxel*, 8>& voxels, std::uint32_t count, Block& block) const;
 
   SurfaceMapSettings settings_;
   VoxelTable<Voxel> voxels_;
   VoxelTable<Block> blocks_;
   std::uint32_t revision_ = 1;
-  Surface nothing_;
 };
 
 }  // namespace lego_loam_sc

@@ -88,6 +88,13 @@ class VoxelTable {
     if (!slots_.empty()) __builtin_prefetch(&slots_[first_slot(key)]);
   }
 
+  /// The second step, when the first is done: fetches the value.
+  void prefetch_value(VoxelKey key) const {
+    if (slots_.empty()) return;
+    const Slot& slot = slots_[first_slot(key)];
+    if (slot.index != kEmpty) __builtin_prefetch(&values_[slot.index]);
+  }
+
   /// The value of the cell and whether it was made by this call.
   std::pair<Value&, bool> find_or_insert(VoxelKey key) {
     if (2 * (values_.size() + 1) > slots_.size()) grow();

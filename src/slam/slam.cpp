@@ -4,6 +4,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 
@@ -28,6 +29,8 @@ namespace {
 
 // Scans with fewer points than this are not worth matching.
 constexpr std::size_t kMinPoints = 100;
+// Seconds over which the speed is averaged.
+constexpr double kSpeedMemory = 1.0;
 // Times that the first two scans are processed anew when the drive begins at speed.
 constexpr int kBeginnings = 2;
 
@@ -97,6 +100,7 @@ struct Slam::State {
   int scans = 0;
   Placed previous;                  // the last scan that was matched
   Vector6 twist = Vector6::Zero();  // of that scan, m/s and rad/s
+  double speed = 0.0;               // m/s, mean of the last scans whose motion the map told
   double travelled = 0.0;           // m
 };
 
@@ -169,7 +173,10 @@ ScanReport Slam::State::process(const Scan& scan) {
       twist =
           log_se3(settings.mapping.every == 1 ? T_previous_current : motion.T_previous_current) /
           seconds;
-    travelled += T_previous_current.translation().norm();
+    const double moved = T_previous_current.translation().norm();
+    travelled += moved;
+    if (match.localizability.degenerate_translations == 0)
+      speed += (1.0 - std::exp(-seconds / kSpeedMemory)) * (moved / seconds - speed);
     current.twist = match.matched ? match.twist : twist;
     T_reference_stamp =
         first ? extrapolate(current.twist, stamp_age)
@@ -218,10 +225,14 @@ Motion Slam::State::predict_and_match(const Features& features, double seconds,
 MapMatch Slam::State::refine(const Features& features, const Motion& motion, double seconds,
                              ScanReport& report) {
   const Pose predicted = exp_se3(twist * seconds);
+  // The way of the last displacement at the mean speed. In the axes of a shaking sensor it would be
+  // turned by a little each time, which eats it up.
+  Pose T_map_predicted = previous.T_map_lidar * predicted;
+  const Eigen::Vector3d way = -exp_se3(-twist * seconds).translation().stableNormalized();
+  T_map_predicted.translation() = previous.T_map_lidar * Eigen::Vector3d(speed * seconds * way);
   const auto refine_from = [&](const Pose& T_previous_current, bool measured) {
-    return mapper.refine(
-        features, {previous.T_map_lidar * T_previous_current, previous.T_map_lidar * predicted,
-                   T_previous_current, seconds, measured});
+    return mapper.refine(features, {previous.T_map_lidar * T_previous_current, T_map_predicted,
+                                    T_previous_current, seconds, measured});
   };
   MapMatch match;
   match.T_map_lidar = previous.T_map_lidar * motion.T_previous_current;
@@ -337,6 +348,7 @@ ScanReport Slam::begin_again(const Scan& first, const Scan& second, ScanReport r
     auto again = std::make_unique<State>(state_->given_sensor, state_->settings,
                                          state_->arena.max_concurrency(), state_->detector);
     again->twist = state_->twist;
+    again->speed = state_->twist.head<3>().norm();
     again->arena.execute([&] {
       again->process(first);
       report = again->process(second);
