@@ -154,7 +154,7 @@ struct MappingSettings {
     visit("match_spacing", s.match_spacing, 0.0, 10.0,
           "m; voxel of the filter over the points that are matched");
     visit("match_points", s.match_points, 0, 100000,
-          "in small spaces that voxel is halved, twice at most, until this many points are left");
+          "in small spaces that voxel shrinks until about this many points are left; 0 = never");
     visit("associations", s.associations, 1, 100, "times that correspondences are searched anew");
     visit("iterations", s.iterations, 1, 100, "Gauss-Newton steps for one association");
     visit("max_distance", s.max_distance, 0.05, 100.0,

@@ -18,8 +18,12 @@ constexpr double kMinScale = 1.0;
 constexpr double kMaxScale = 20.0;
 // A degenerate direction is tied to the guess with this sigma, m or rad.
 constexpr double kTied = 1e-6;
-// Times that the spacing of the points is halved in small spaces.
-constexpr int kHalvings = 2;
+// The spacing of the matched points, as a share of the setting, in the smallest spaces.
+constexpr double kLeastSpacing = 0.125;
+// The finest voxels come into use when the spacing falls below so many of them, and out of use when
+// it rises above so many.
+constexpr double kFineSpacing = 2.5;
+constexpr double kCoarseSpacing = 3.5;
 // The map is searched for voxels out of reach after this share of its radius has been driven.
 constexpr double kEvictionShare = 0.1;
 
@@ -161,7 +165,20 @@ double weighted_rmse(const std::vector<Correspondence>& correspondences, const P
 Mapper::Mapper(const MappingSettings& settings, double range_noise, double row_spacing)
     : settings_(settings),
       range_noise_(std::max(range_noise, 1e-3)),
-      map_(settings.voxel_size, settings.levels, settings.planarity, row_spacing) {}
+      map_(settings.voxel_size, settings.levels, settings.planarity, row_spacing),
+      spacing_(settings.match_spacing) {}
+
+// The points that a scan leaves lie on surfaces: a quarter of them at twice the spacing. The scan
+// shows what the next one will leave.
+void Mapper::adapt_spacing(int points) {
+  if (settings_.match_points == 0) return;
+  const double share = static_cast<double>(points) / settings_.match_points;
+  spacing_ = std::clamp(spacing_ * std::clamp(std::sqrt(share), 0.5, 2.0),
+                        kLeastSpacing * settings_.match_spacing, settings_.match_spacing);
+  if (spacing_ < kFineSpacing * settings_.voxel_size) first_level_ = 0;
+  if (spacing_ > kCoarseSpacing * settings_.voxel_size)
+    first_level_ = std::min(1, settings_.levels - 1);
+}
 
 MapMatch Mapper::refine(const Features& features, const ScanGuess& guess) {
   MapMatch match;
@@ -170,16 +187,10 @@ MapMatch Mapper::refine(const Features& features, const ScanGuess& guess) {
   match.covariance.diagonal() << Eigen::Vector3d::Constant(
       std::pow(settings_.prior_translation, 2)),
       Eigen::Vector3d::Constant(prior_rotation * prior_rotation);
-  Features points;
-  double spacing = settings_.match_spacing;
-  first_level_ = 1;
-  for (int k = 0; k == 0 || (k <= kHalvings && match.points < settings_.match_points);
-       ++k, spacing *= 0.5) {
-    if (k > 0) first_level_ = 0;
-    points = thin_out(features, spacing);
-    match.points = static_cast<int>(points.planars_large.size() + points.edges_large.size() +
-                                    points.scattered.size());
-  }
+  const Features points = thin_out(features, spacing_);
+  match.points = static_cast<int>(points.planars_large.size() + points.edges_large.size() +
+                                  points.scattered.size());
+  adapt_spacing(match.points);
 
   Pose pose = guess.T_map_lidar;
   // A prediction is off by what the sensor may have accelerated.
@@ -197,7 +208,7 @@ MapMatch Mapper::refine(const Features& features, const ScanGuess& guess) {
   double scale = kMaxScale;
   for (int k = 0; k < settings_.associations; ++k) {
     correspondences = map_.match(deskew(points, twist), pose, settings_.max_distance, range_noise_,
-                                 std::min(first_level_, settings_.levels - 1), surfaces);
+                                 first_level_, surfaces);
     match.matches = static_cast<int>(correspondences.size());
     if (match.matches < settings_.min_matches ||
         match.matches < settings_.min_matched_share * match.points)
@@ -251,7 +262,7 @@ void Mapper::insert(const Features& deskewed, const Pose& T_map_lidar) {
   const Eigen::Vector3d position = T_map_lidar.translation();
   if (last_insertion_ && (position - *last_insertion_).norm() < settings_.insert_distance) return;
   last_insertion_ = position;
-  map_.insert(deskewed, T_map_lidar, std::min(first_level_, settings_.levels - 1));
+  map_.insert(deskewed, T_map_lidar, first_level_);
   if ((position - last_eviction_).norm() > kEvictionShare * settings_.radius) {
     map_.remove_beyond(position, settings_.radius);
     last_eviction_ = position;

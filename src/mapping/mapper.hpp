@@ -58,10 +58,13 @@ class Mapper {
   bool empty() const { return map_.size() == 0; }
 
  private:
+  void adapt_spacing(int points);
+
   MappingSettings settings_;
   double range_noise_;
   LocalMap map_;
   ElevationBias elevation_bias_;
+  double spacing_;       // m, of the points that are matched
   int first_level_ = 0;  // of the map: the finest voxels are for small spaces
   std::optional<Eigen::Vector3d> last_insertion_;
   Eigen::Vector3d last_eviction_ = Eigen::Vector3d::Zero();
