@@ -204,7 +204,8 @@ TEST(LoopCloser, TheEdgeLeadsFromTheMatchToTheQueryInTheMatchsFrame) {
     RoundTrip drive = round_trip(final_yaw_deg, random);
     LoopCloser closer(settings, {}, kNoise);
     for (const Visit& v : drive.visits) closer.add_key_frame(v.context);
-    const auto reports = closer.close(drive.key_frames, drive.graph);
+    Pieces pieces;
+    const auto reports = closer.close(drive.key_frames, pieces, drive.graph);
     ASSERT_EQ(drive.graph.loop_edges().size(), 1u) << final_yaw_deg << " " << reports.size();
     const PoseEdge& edge = drive.graph.loop_edges()[0];
     EXPECT_EQ(edge.to, static_cast<int>(drive.visits.size()) - 1);

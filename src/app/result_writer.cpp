@@ -31,8 +31,8 @@ constexpr const char* kScansHeader =
     "edges_large,planars_large,odometry_edges,odometry_planars,odometry_iterations,map_points,"
     "map_matches,map_iterations,map_rmse_m,degenerate_translations,degenerate_rotations,"
     "translation_strength,rotation_strength,elevation_bias_deg,prediction_m,stamp_jump_s,warnings,"
-    "errors,key_frame,corrected,projection_ms,segmentation_ms,features_ms,odometry_ms,mapping_ms,"
-    "loops_ms,delay_ms,delay_level\n";
+    "errors,piece,key_frame,corrected,projection_ms,segmentation_ms,features_ms,odometry_ms,"
+    "mapping_ms,loops_ms,delay_ms,delay_level\n";
 
 constexpr const char* kLoopsHeader =
     "query,match,query_scan,match_scan,detector,distance,yaw_deg,overlap,rmse_m,x,y,z,roll_deg,"
@@ -67,7 +67,7 @@ std::string scan_line(const ScanReport& r, const HealthLog::Line& health) {
        << r.degenerate_translations << r.degenerate_rotations
        << to_fixed(r.least_translation_strength, 1) << to_fixed(r.least_rotation_strength, 1)
        << to_fixed(r.elevation_bias_deg, 4) << to_fixed(r.prediction_m, 4)
-       << to_fixed(r.stamp_jump_s, 3) << health.warnings << health.errors << r.key_frame
+       << to_fixed(r.stamp_jump_s, 3) << health.warnings << health.errors << r.piece << r.key_frame
        << (r.corrected ? 1 : 0);
   for (const double milliseconds : r.milliseconds) line << to_fixed(milliseconds, 3);
   line << to_fixed(health.delay_ms, 3) << to_string(health.delay_level);
@@ -221,6 +221,7 @@ std::string ResultWriter::finish(const Slam& slam, const DatasetFacts& dataset,
       {"stamp_jumps", stamp_jumps_},
       {"health", health_.to_json()},
       {"key_frames", slam.key_frames().size()},
+      {"maps", slam.maps()},
       {"loops_accepted", accepted_loops_},
       {"loops_refused", refused_loops_},
       {"path_length_m", length},
@@ -233,9 +234,9 @@ std::string ResultWriter::finish(const Slam& slam, const DatasetFacts& dataset,
         {"cpu_seconds", resources.cpu_seconds},
         {"cpu_ms_per_scan", milliseconds_per_scan},
         {"peak_memory_mb", resources.peak_megabytes},
-         {"processor", processor_name()},
-         {"processors", std::thread::hardware_concurrency()},
-         {"delay", health_.to_json(Vital::delay)}}}};
+        {"processor", processor_name()},
+        {"processors", std::thread::hardware_concurrency()},
+        {"delay", health_.to_json(Vital::delay)}}}};
   char text[512];
   std::snprintf(text, sizeof text,
                 "%zu scans, %.1f m, %zu key frames, %zu loops, %zu map points\n"
@@ -250,6 +251,9 @@ std::string ResultWriter::finish(const Slam& slam, const DatasetFacts& dataset,
   if (stamp_jumps_ > 0)
     report += "jumps of the stamps that were bridged: " + std::to_string(stamp_jumps_) +
               first_jump_;
+  if (slam.maps() > 1)
+    report += "the way was lost: " + std::to_string(slam.maps()) +
+              " maps that no loop joins, where they lie to each other is a guess\n";
   report += health_.text();
   std::optional<InputError> misfit;  // of the truth; the run's results are worth no less
   try {

@@ -147,6 +147,12 @@ Pose predicted_where_degenerate(const ScanGuess& guess, const Localizability& l)
   return perturb(guess.T_map_lidar, change);
 }
 
+int count_agreeing(const std::vector<Correspondence>& correspondences, const Pose& pose) {
+  return static_cast<int>(std::count_if(
+      correspondences.begin(), correspondences.end(),
+      [&](const Correspondence& c) { return distance(c, pose) * std::sqrt(c.weight) < 3.0; }));
+}
+
 double weighted_rmse(const std::vector<Correspondence>& correspondences, const Pose& pose,
                      double scale) {
   double sum = 0.0;
@@ -248,6 +254,7 @@ MapMatch Mapper::refine(const Features& features, const ScanGuess& guess) {
   match.matched = true;
   match.T_map_lidar = normalized(pose);
   match.twist = twist;
+  match.agreeing = count_agreeing(correspondences, pose);
   match.rmse = weighted_rmse(correspondences, pose, scale);
   match.covariance = solution.H.inverse().topLeftCorner<6, 6>();
   return match;

@@ -19,6 +19,7 @@ struct MapMatch {
   bool matched = false;             ///< false: the pose is the guess
   int points = 0;                   ///< that were to be matched
   int matches = 0;                  ///< of them found a surface
+  int agreeing = 0;                 ///< of these lie within 3 sigmas of it
   int iterations = 0;
   double rmse = 0.0;  ///< m, of the matched points with their robust weights
   Matrix6 covariance =

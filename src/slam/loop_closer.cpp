@@ -17,18 +17,31 @@ namespace {
 // Mahalanobis distance of a loop from the optimised graph above which it is taken out again: of six
 // degrees of freedom a true one exceeds it once in ten million.
 constexpr double kContradiction = 7.0;
+// Between two maps there is no pose graph to contradict a candidate. So more of them are tried, and
+// more must agree: the overlap of a loop that joins them.
+constexpr std::size_t kJoinCandidates = 3;
+constexpr double kJoinOverlap = 0.75;
 
-// Key frames near `center`, at most `reach` on each side, placed in its frame by the pose graph.
+// Key frames near `center`, at most so many on each side, placed in its frame by the pose graph.
 std::vector<PlacedKeyFrame> placed_round(int center, int before, int after,
-                                         std::span<const KeyFrame> key_frames,
+                                         std::span<const KeyFrame> key_frames, const Pieces& pieces,
                                          std::span<const Pose> T_map_key) {
   const int first = std::max(center - before, 0);
   const int last = std::min(center + after, static_cast<int>(key_frames.size()) - 1);
   const Pose T_center_map = T_map_key[center].inverse();
   std::vector<PlacedKeyFrame> placed;
   for (int k = first; k <= last; ++k)
-    placed.push_back({&key_frames[k], T_center_map * T_map_key[k]});
+    if (pieces.same(k, center)) placed.push_back({&key_frames[k], T_center_map * T_map_key[k]});
   return placed;
+}
+
+// The longest way from one key frame to the other that drift may have built up on. What lies
+// between pieces was not measured: a loop joined them, anywhere on the drive.
+double way_between(const LoopCandidate& candidate, std::span<const KeyFrame> key_frames,
+                   const Pieces& pieces) {
+  const double now = key_frames[candidate.query].travelled;
+  return pieces.same(candidate.query, candidate.match) ? now - key_frames[candidate.match].travelled
+                                                       : now;
 }
 
 // How far a loop is from what the pose graph expects, in sigmas of the drift since then.
@@ -52,24 +65,31 @@ LoopCloser::LoopCloser(const LoopSettings& settings, const GraphSettings& graph,
       contexts_(settings.scan_context) {}
 
 std::vector<LoopCandidate> LoopCloser::candidates(std::span<const KeyFrame> key_frames,
+                                                  const Pieces& pieces,
                                                   const PoseGraph& graph) const {
   const int query = static_cast<int>(key_frames.size()) - 1;
   const KeyFrame& now = key_frames.back();
   int eligible = 0;  // key frames that are another visit, not the same one going on
   while (eligible < query &&
-         now.travelled - key_frames[eligible].travelled >= settings_.min_travel &&
-         1e-9 * static_cast<double>(now.reference_ns - key_frames[eligible].reference_ns) >=
-             settings_.min_seconds)
+         (!pieces.same(eligible, query) ||
+          (now.travelled - key_frames[eligible].travelled >= settings_.min_travel &&
+           1e-9 * static_cast<double>(now.reference_ns - key_frames[eligible].reference_ns) >=
+               settings_.min_seconds)))
     ++eligible;
 
   std::vector<LoopCandidate> found;
   if (settings_.scan_context.enabled) {
-    found = contexts_.search(query, eligible);
-    if (found.size() > 1) found.resize(1);  // c* of equation (8)
+    const std::vector<LoopCandidate> alike = contexts_.search(query, eligible);
+    for (const LoopCandidate& candidate : alike) {
+      const bool first = found.empty();  // c* of equation (8)
+      const bool joins = !pieces.joined(candidate.match, query);
+      if (first || (joins && found.size() < kJoinCandidates)) found.push_back(candidate);
+    }
   }
   if (settings_.radius_search.enabled) {
-    const auto near = search_radius(graph.poses(), query, eligible, settings_.radius_search);
-    found.insert(found.end(), near.begin(), near.end());
+    for (const LoopCandidate& candidate :
+         search_radius(graph.poses(), query, eligible, settings_.radius_search))
+      if (pieces.joined(candidate.match, query)) found.push_back(candidate);
   }
   if (detector_ && eligible > 0) {
     for (LoopCandidate candidate : detector_({key_frames, graph.poses(), eligible})) {
@@ -86,19 +106,19 @@ std::vector<LoopCandidate> LoopCloser::candidates(std::span<const KeyFrame> key_
 }
 
 LoopVerification LoopCloser::verify(const LoopCandidate& candidate,
-                                    std::span<const KeyFrame> key_frames,
+                                    std::span<const KeyFrame> key_frames, const Pieces& pieces,
                                     const PoseGraph& graph) const {
   const VerifierSettings& settings = settings_.verifier;
   const std::vector<Pose>& poses = graph.poses();
   const Pose expected = poses[candidate.match].inverse() * poses[candidate.query];
+  const bool joins = !pieces.joined(candidate.match, candidate.query);
+  const bool must_agree = settings.consistency_sigmas > 0.0 && !joins;
 
-  const double travelled =
-      key_frames[candidate.query].travelled - key_frames[candidate.match].travelled;
+  const double travelled = way_between(candidate, key_frames, pieces);
   // Far apart even if drift were at its worst: not worth an ICP.
-  if (settings.consistency_sigmas > 0.0 &&
-      expected.translation().norm() > settings_.scan_context.reach + settings.consistency_sigmas *
-                                                                         settings.drift_per_metre *
-                                                                         travelled) {
+  if (must_agree && expected.translation().norm() >
+                        settings_.scan_context.reach +
+                            settings.consistency_sigmas * settings.drift_per_metre * travelled) {
     LoopVerification far;
     far.verdict = Verdict::inconsistent;
     return far;
@@ -113,26 +133,33 @@ LoopVerification LoopCloser::verify(const LoopCandidate& candidate,
   }
   if (candidate.detector != LoopCandidate::Detector::scan_context) guesses.push_back(expected);
   LoopVerification result = verify_loop(
-      placed_round(candidate.query, settings.query_neighbours, 0, key_frames, poses),
-      placed_round(candidate.match, settings.neighbours, settings.neighbours, key_frames, poses),
+      placed_round(candidate.query, settings.query_neighbours, 0, key_frames, pieces, poses),
+      placed_round(candidate.match, settings.neighbours, settings.neighbours, key_frames, pieces,
+                   poses),
       guesses, range_noise_, settings);
 
-  if (result.verdict == Verdict::accepted && settings.consistency_sigmas > 0.0 &&
+  if (result.verdict == Verdict::accepted && joins && result.overlap < kJoinOverlap)
+    result.verdict = Verdict::low_overlap;
+  if (result.verdict == Verdict::accepted && must_agree &&
       inconsistency(result.T_match_query, expected, travelled, settings) >
           settings.consistency_sigmas)
     result.verdict = Verdict::inconsistent;
   return result;
 }
 
-std::vector<LoopReport> LoopCloser::close(std::span<const KeyFrame> key_frames, PoseGraph& graph) {
+std::vector<LoopReport> LoopCloser::close(std::span<const KeyFrame> key_frames, Pieces& pieces,
+                                          PoseGraph& graph) {
   std::vector<LoopReport> reports;
   const KeyFrame& now = key_frames.back();
-  if (now.travelled - last_loop_travelled_ < settings_.spacing) return reports;
+  const bool just_closed = now.travelled - last_loop_travelled_ < settings_.spacing;
+  if (just_closed && pieces.maps() == 1) return reports;
 
-  for (const LoopCandidate& candidate : candidates(key_frames, graph)) {
+  for (const LoopCandidate& candidate : candidates(key_frames, pieces, graph)) {
+    const bool joins = !pieces.joined(candidate.match, candidate.query);
+    if (just_closed && !joins) continue;
     LoopReport& report = reports.emplace_back();
     report.candidate = candidate;
-    report.verification = verify(candidate, key_frames, graph);
+    report.verification = verify(candidate, key_frames, pieces, graph);
     LoopVerification& verification = report.verification;
     if (verification.verdict != Verdict::accepted) continue;
 
@@ -147,6 +174,7 @@ std::vector<LoopReport> LoopCloser::close(std::span<const KeyFrame> key_frames, 
       verification.verdict = Verdict::contradicted;
       continue;
     }
+    if (joins) pieces.join(candidate.match, candidate.query);
     last_loop_travelled_ = now.travelled;
     break;  // one loop for each key frame
   }

@@ -11,6 +11,7 @@
 #include "loop/loop_candidate.hpp"
 #include "loop/loop_detector.hpp"
 #include "loop/ring_key_index.hpp"
+#include "slam/pieces.hpp"
 #include "slam/report.hpp"
 
 namespace lego_loam_sc {
@@ -26,16 +27,17 @@ class LoopCloser {
   /// Describes the newest key frame; call once for each.
   void add_key_frame(ScanContext context) { contexts_.add(std::move(context)); }
 
-  /// Looks for loops that end at the newest key frame and adds accepted ones to the graph. The
-  /// graph is optimised, and a loop that the others contradict is taken out again. Returns every
-  /// candidate that was verified.
-  std::vector<LoopReport> close(std::span<const KeyFrame> key_frames, PoseGraph& graph);
+  /// Looks for loops that end at the newest key frame and adds accepted ones to the graph, which
+  /// may join pieces. The graph is optimised, and a loop that the others contradict is taken out
+  /// again. Returns every candidate that was verified.
+  std::vector<LoopReport> close(std::span<const KeyFrame> key_frames, Pieces& pieces,
+                                PoseGraph& graph);
 
  private:
-  std::vector<LoopCandidate> candidates(std::span<const KeyFrame> key_frames,
+  std::vector<LoopCandidate> candidates(std::span<const KeyFrame> key_frames, const Pieces& pieces,
                                         const PoseGraph& graph) const;
   LoopVerification verify(const LoopCandidate& candidate, std::span<const KeyFrame> key_frames,
-                          const PoseGraph& graph) const;
+                          const Pieces& pieces, const PoseGraph& graph) const;
 
   LoopSettings settings_;
   GraphSettings graph_settings_;

@@ -49,6 +49,7 @@ struct ScanReport {
 
   double prediction_m = 0.0;  ///< from the predicted to the found position
 
+  int piece = 0;       ///< of the drive, from 0; see Pieces
   int key_frame = -1;  ///< its number when the scan is one
   std::vector<LoopReport> loops;
   bool corrected = false;  ///< a loop moved the poses

@@ -19,6 +19,7 @@
 #include "slam/edge_covariance.hpp"
 #include "slam/loop_closer.hpp"
 #include "slam/make_key_frame.hpp"
+#include "slam/pieces.hpp"
 #include "slam/scan_clock.hpp"
 #include "slam/stage_timer.hpp"
 #include "slam/stamp_pose.hpp"
@@ -33,6 +34,16 @@ constexpr std::size_t kMinPoints = 100;
 constexpr double kSpeedMemory = 1.0;
 // Times that the first two scans are processed anew when the drive begins at speed.
 constexpr int kBeginnings = 2;
+
+// Without sight for so long, s, the sensor may be anywhere.
+constexpr double kLongestBlindness = 1.0;
+// Something always matches, even far from where the map was made. There a fifth or more of what is
+// matched lies beside its surface, and fewer than two of five points lie on one. In the right place
+// either may be so, where the map is young or the ground rough, but not both.
+constexpr double kAgreement = 0.85;  // of the matched points
+constexpr double kConfirmed = 0.5;   // of all points
+// A piece of the map is given up after so many scans that it does not hold.
+constexpr int kPatience = 10;
 
 const Settings& checked(const SensorModel& sensor, const Settings& settings) {
   if (const auto fault = validate(sensor)) throw std::invalid_argument(*fault);
@@ -50,6 +61,11 @@ struct Placed {
 
 double seconds_between(std::int64_t from_ns, std::int64_t to_ns) {
   return 1e-9 * static_cast<double>(to_ns - from_ns);
+}
+
+bool confirms(const MapMatch& match) {
+  return match.matched && (match.agreeing >= kAgreement * match.matches ||
+                           match.agreeing >= kConfirmed * match.points);
 }
 
 }  // namespace
@@ -74,6 +90,7 @@ struct Slam::State {
   MapMatch refine(const Features& features, const Motion& motion, double seconds,
                   ScanReport& report);
   bool is_key_frame(const Pose& pose) const;
+  void begin_piece(ScanReport& report);
   void add_key_frame(KeyFrame key_frame, const MapMatch& match, ScanContext context);
   void close_loops(ScanReport& report);
   void rebuild_local_map();
@@ -91,6 +108,7 @@ struct Slam::State {
   Mapper mapper;
   LoopCloser loop_closer;
   PoseGraph graph;
+  Pieces pieces;
   TransformFusion fusion;
   std::vector<KeyFrame> key_frames;
   std::vector<int> scan_of_key_frame;
@@ -102,6 +120,8 @@ struct Slam::State {
   Vector6 twist = Vector6::Zero();  // of that scan, m/s and rad/s
   double speed = 0.0;               // m/s, mean of the last scans whose motion the map told
   double travelled = 0.0;           // m
+  bool in_doubt = false;            // the motion does not tell where it is, the map has to
+  int lost_scans = 0;               // in a row; blind ones do not count
 };
 
 // Paper figure 4.
@@ -146,6 +166,8 @@ ScanReport Slam::State::process(const Scan& scan) {
       first ? sensor.period
             : std::max(seconds_between(previous.reference_ns, image.reference_ns), 1e-3);
 
+  in_doubt |= time->jump_s != 0.0 || seconds > kLongestBlindness;
+
   // The map begins at the first scan's stamp; how it moved by then is only known when it is done
   // again.
   const double stamp_age = seconds_between(image.reference_ns, time->time_ns);
@@ -157,6 +179,12 @@ ScanReport Slam::State::process(const Scan& scan) {
 
   timer.start(Stage::mapping);
   const MapMatch match = refine(features, motion, seconds, report);
+  const bool placed = report.status <= Status::odometry_only;
+  if (report.status == Status::lost) ++lost_scans;
+  if (placed) lost_scans = 0;
+  const bool new_piece = lost_scans == kPatience;
+  if (new_piece) begin_piece(report);
+  const bool good = placed || new_piece;
 
   // The same motion carries the live pose on, which no loop ever moves.
   const Pose T_previous_current = previous.T_map_lidar.inverse() * match.T_map_lidar;
@@ -165,11 +193,10 @@ ScanReport Slam::State::process(const Scan& scan) {
         (T_previous_current.translation() - exp_se3(twist * seconds).translation()).norm();
   Placed current{image.reference_ns, match.T_map_lidar,
                  normalized(previous.T_odom_lidar * T_previous_current), twist};
-  const bool good = report.status <= Status::odometry_only;
   Pose T_reference_stamp = extrapolate(twist, stamp_age);
   Features features_deskewed;
   if (good) {
-    if (!first && time->jump_s == 0.0)
+    if (!first && !new_piece && time->jump_s == 0.0)
       twist =
           log_se3(settings.mapping.every == 1 ? T_previous_current : motion.T_previous_current) /
           seconds;
@@ -178,9 +205,9 @@ ScanReport Slam::State::process(const Scan& scan) {
     if (match.localizability.degenerate_translations == 0)
       speed += (1.0 - std::exp(-seconds / kSpeedMemory)) * (moved / seconds - speed);
     current.twist = match.matched ? match.twist : twist;
-    T_reference_stamp =
-        first ? extrapolate(current.twist, stamp_age)
-              : interpolate(T_previous_current, previous.twist, current.twist, seconds, stamp_age);
+    T_reference_stamp = first || new_piece ? extrapolate(current.twist, stamp_age)
+                                           : interpolate(T_previous_current, previous.twist,
+                                                         current.twist, seconds, stamp_age);
     previous = current;
     features_deskewed = deskew(features, current.twist);
     odometry.set_previous(features_deskewed);
@@ -189,7 +216,7 @@ ScanReport Slam::State::process(const Scan& scan) {
 
   timer.start(Stage::loops);
   Pose T_map_lidar = current.T_map_lidar;
-  if (first || (good && report.mapped && is_key_frame(T_map_lidar))) {
+  if (first || new_piece || (good && report.mapped && is_key_frame(T_map_lidar))) {
     report.key_frame = static_cast<int>(key_frames.size());
     scan_of_key_frame.push_back(report.index);
     const std::vector<Eigen::Vector3f> points = deskewed_points(image, current.twist);
@@ -200,6 +227,7 @@ ScanReport Slam::State::process(const Scan& scan) {
     T_map_lidar = graph.poses().back();
   }
 
+  report.piece = pieces.count() - 1;
   report.T_odom_lidar = of_lidar(current.T_odom_lidar * T_reference_stamp);
   live.push_back({scan.stamp_ns, report.T_odom_lidar});
   fusion.add(scan.stamp_ns, static_cast<int>(key_frames.size()) - 1,
@@ -238,7 +266,10 @@ MapMatch Slam::State::refine(const Features& features, const Motion& motion, dou
   match.T_map_lidar = previous.T_map_lidar * motion.T_previous_current;
   if (report.status != Status::ok) return match;
   report.mapped = mapper.empty() || report.index % settings.mapping.every == 0;
-  if (mapper.empty()) return match;
+  if (mapper.empty()) {
+    in_doubt = false;
+    return match;
+  }
 
   if (report.mapped) {
     match = refine_from(motion.T_previous_current, motion.solved);
@@ -266,7 +297,23 @@ MapMatch Slam::State::refine(const Features& features, const Motion& motion, dou
   } else if (report.mapped) {
     report.status = Status::odometry_only;
   }
+
+  in_doubt = (in_doubt || !motion.solved) && !confirms(match);
+  if (in_doubt) {
+    report.status = Status::lost;
+    match = {};
+    match.T_map_lidar = previous.T_map_lidar * predicted;
+  }
   return match;
+}
+
+// The map does not hold where the sensor is now: another one begins, from the prediction.
+void Slam::State::begin_piece(ScanReport& report) {
+  mapper.clear();
+  pieces.begin(static_cast<int>(key_frames.size()));
+  in_doubt = false;
+  lost_scans = 0;
+  report.mapped = true;
 }
 
 bool Slam::State::is_key_frame(const Pose& pose) const {
@@ -280,8 +327,11 @@ void Slam::State::add_key_frame(KeyFrame key_frame, const MapMatch& match, ScanC
   if (number == 0) {
     graph.add_first(match.T_map_lidar);
   } else {
-    const Matrix6 covariance = odometry_covariance(match.covariance, match.T_map_lidar.linear(),
-                                                   match.localizability, settings.graph);
+    const Matrix6 covariance =
+        pieces.same(number - 1, number)
+            ? odometry_covariance(match.covariance, match.T_map_lidar.linear(),
+                                  match.localizability, settings.graph)
+            : broken_covariance();
     graph.add_key_frame(
         {number - 1, number, graph.poses().back().inverse() * match.T_map_lidar, covariance});
   }
@@ -292,7 +342,7 @@ void Slam::State::add_key_frame(KeyFrame key_frame, const MapMatch& match, ScanC
 // Loop closing, 2.3 (5) and (6); a correction reaches the current pose and the local map at once
 // and all other poses through transform fusion.
 void Slam::State::close_loops(ScanReport& report) {
-  report.loops = loop_closer.close(key_frames, graph);
+  report.loops = loop_closer.close(key_frames, pieces, graph);
   for (LoopReport& loop : report.loops) {
     loop.query_scan = scan_of_key_frame[loop.candidate.query];
     loop.match_scan = scan_of_key_frame[loop.candidate.match];
@@ -308,6 +358,7 @@ void Slam::State::rebuild_local_map() {
   const Eigen::Vector3d here = previous.T_map_lidar.translation();
   for (std::size_t k = 0; k < key_frames.size(); ++k) {
     const Pose& T_map_key = graph.poses()[k];
+    if (!pieces.joined(static_cast<int>(k), static_cast<int>(key_frames.size()) - 1)) continue;
     if ((T_map_key.translation() - here).norm() > settings.mapping.radius) continue;
     mapper.insert(unpack(key_frames[k]), T_map_key);
   }
@@ -369,6 +420,9 @@ const std::vector<KeyFrame>& Slam::key_frames() const {
 }
 const PoseGraph& Slam::graph() const {
   return state_->graph;
+}
+int Slam::maps() const {
+  return state_->pieces.maps();
 }
 double Slam::sensor_height() const {
   return state_->height;

@@ -45,6 +45,10 @@ class Slam {
   const std::vector<KeyFrame>& key_frames() const;  ///< in the order of time
   const PoseGraph& graph() const;  ///< has the poses of the key frames and the loops
 
+  /// Number of maps that no loop joins: 1 unless the way was lost. Where they lie to each other is
+  /// a guess.
+  int maps() const;
+
   /// The sensor's height above the ground, m: as the sensor model says or as estimated; 0 while
   /// unknown.
   double sensor_height() const;
