@@ -48,12 +48,12 @@ std::vector<PlacedKeyFrame> placed(const std::vector<Visit>& visits, const Visit
   std::vector<PlacedKeyFrame> result;
   const Pose T_center_map = (T_map_world * center.T_world_lidar).inverse();
   for (const Visit& v : visits)
-    result.push_back({&v.key_frame, T_center_map * (T_map_world * v.T_world_lidar)});
+    result.push_back({unpack(v.key_frame), T_center_map * (T_map_world * v.T_world_lidar)});
   return result;
 }
 
 PlacedKeyFrame alone(const Visit& v) {
-  return {&v.key_frame, Pose::Identity()};
+  return {unpack(v.key_frame), Pose::Identity()};
 }
 
 Pose far_and_turned(std::mt19937& random) {
@@ -158,7 +158,7 @@ TEST(LoopVerifier, TheBestOfSeveralGuessesWins) {
 
 TEST(LoopVerifier, NothingToMatchIsNoMatch) {
   const KeyFrame empty;
-  const std::vector<PlacedKeyFrame> nothing{{&empty, Pose::Identity()}};
+  const std::vector<PlacedKeyFrame> nothing{{unpack(empty), Pose::Identity()}};
   const std::vector<Pose> guess{Pose::Identity()};
   EXPECT_EQ(verify_loop(nothing, nothing, guess, kNoise, {}).verdict, Verdict::no_match);
   EXPECT_EQ(verify_loop(nothing, nothing, {}, kNoise, {}).verdict, Verdict::no_match);
@@ -167,7 +167,7 @@ TEST(LoopVerifier, NothingToMatchIsNoMatch) {
 // A drive round the hall by a drifting odometry that ends near its start, looking elsewhere.
 struct RoundTrip {
   std::vector<Visit> visits;
-  std::vector<KeyFrame> key_frames;
+  KeyFrames key_frames;
   PoseGraph graph{GraphSettings{}};
 };
 
@@ -191,7 +191,7 @@ RoundTrip round_trip(double final_yaw_deg, std::mt19937& random) {
       const Pose step = drive.visits.back().T_world_lidar.inverse() * at * drift;
       drive.graph.add_key_frame({k - 1, k, step, covariance});
     }
-    drive.key_frames.push_back(v.key_frame);
+    drive.key_frames.add(v.key_frame);
     drive.visits.push_back(std::move(v));
   }
   return drive;

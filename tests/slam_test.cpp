@@ -55,11 +55,13 @@ void expect_same(const Slam& a, const Slam& b) {
   ASSERT_EQ(a.key_frames().size(), b.key_frames().size());
   for (std::size_t k = 0; k < a.key_frames().size(); ++k) {
     EXPECT_TRUE(same_pose(a.graph().poses()[k], b.graph().poses()[k]));
-    EXPECT_EQ(a.key_frames()[k].reference_ns, b.key_frames()[k].reference_ns);
-    EXPECT_EQ(a.key_frames()[k].travelled, b.key_frames()[k].travelled);
-    expect_same(a.key_frames()[k].planars, b.key_frames()[k].planars);
-    expect_same(a.key_frames()[k].edges, b.key_frames()[k].edges);
-    expect_same(a.key_frames()[k].others, b.key_frames()[k].others);
+    const KeyFrame own = a.key_frames()[k];
+    const KeyFrame other = b.key_frames()[k];
+    EXPECT_EQ(own.reference_ns, other.reference_ns);
+    EXPECT_EQ(own.travelled, other.travelled);
+    expect_same(own.planars, other.planars);
+    expect_same(own.edges, other.edges);
+    expect_same(own.others, other.others);
   }
 }
 

@@ -100,13 +100,26 @@ void write_graph(const std::filesystem::path& path, const PoseGraph& graph) {
 }
 
 void write_loop_scans(const std::filesystem::path& path, const std::set<int>& numbers,
-                      const std::vector<KeyFrame>& key_frames) {
-  std::vector<MapPoint> all;
-  for (const int number : numbers) {
-    const std::vector<MapPoint> points = points_of(key_frames[number], number);
-    all.insert(all.end(), points.begin(), points.end());
-  }
-  write_ply(path, all);
+                      const KeyFrames& key_frames) {
+  CloudFile file(path, CloudFormat::ply);
+  for (const int number : numbers) file.add(points_of(key_frames[number], number));
+  file.commit();
+}
+
+// Returns the number of its points.
+std::size_t write_map(const std::filesystem::path& folder, const Slam& slam, double voxel_size) {
+  CloudFile ply(folder / "map.ply", CloudFormat::ply);
+  CloudFile pcd(folder / "map.pcd", CloudFormat::pcd);
+  std::size_t count = 0;
+  make_map(slam.key_frames(), slam.graph().poses(), voxel_size,
+           [&](std::span<const MapPoint> points) {
+             ply.add(points);
+             pcd.add(points);
+             count += points.size();
+           });
+  ply.commit();
+  pcd.commit();
+  return count;
 }
 
 double path_length(const Trajectory& trajectory) {
@@ -199,9 +212,15 @@ std::string ResultWriter::finish(const Slam& slam, const DatasetFacts& dataset,
   write_tum(folder_ / "trajectory.tum", trajectory);
   write_kitti(folder_ / "trajectory_kitti.txt", trajectory, dataset.T_camera_lidar);
   write_graph(folder_ / "graph.g2o", slam.graph());
-  const std::vector<MapPoint> map =
-      make_map(slam.key_frames(), slam.graph().poses(), settings_.output.map_voxel_size);
-  write_loop_scans(folder_ / "loop_scans.ply", loop_key_frames_, slam.key_frames());
+  // What goes wrong from here on is said in the end: the rest of the results is worth no less.
+  std::optional<InputError> fault;
+  std::size_t map_points = 0;
+  try {
+    write_loop_scans(folder_ / "loop_scans.ply", loop_key_frames_, slam.key_frames());
+    map_points = write_map(folder_, slam, settings_.output.map_voxel_size);
+  } catch (const InputError& error) {
+    fault = error;
+  }
 
   const double length = path_length(trajectory);
   const Resources resources = used_resources();
@@ -225,7 +244,7 @@ std::string ResultWriter::finish(const Slam& slam, const DatasetFacts& dataset,
       {"loops_accepted", accepted_loops_},
       {"loops_refused", refused_loops_},
       {"path_length_m", length},
-      {"map_points", map.size()},
+      {"map_points", map_points},
       {"interrupted", facts.interrupted},
       {"faults", facts.faults},
       {"timing",
@@ -241,7 +260,7 @@ std::string ResultWriter::finish(const Slam& slam, const DatasetFacts& dataset,
   std::snprintf(text, sizeof text,
                 "%zu scans, %.1f m, %zu key frames, %zu loops, %zu map points\n"
                 "%.1f s wall, %.1f s CPU (%.1f ms per scan), %.0f MB\n",
-                scan_count_, length, slam.key_frames().size(), accepted_loops_, map.size(),
+                scan_count_, length, slam.key_frames().size(), accepted_loops_, map_points,
                 facts.wall_seconds, resources.cpu_seconds, milliseconds_per_scan,
                 resources.peak_megabytes);
   std::string report = text;
@@ -255,7 +274,6 @@ std::string ResultWriter::finish(const Slam& slam, const DatasetFacts& dataset,
     report += "the way was lost: " + std::to_string(slam.maps()) +
               " maps that no loop joins, where they lie to each other is a guess\n";
   report += health_.text();
-  std::optional<InputError> misfit;  // of the truth; the run's results are worth no less
   try {
     if (facts.truth) {
       const std::vector<NamedError> errors =
@@ -265,15 +283,12 @@ std::string ResultWriter::finish(const Slam& slam, const DatasetFacts& dataset,
       report += error_table(errors);
     }
   } catch (const InputError& error) {
-    misfit.emplace(facts.truth->file + ": " + error.what());
+    if (!fault) fault.emplace(facts.truth->file + ": " + error.what());
   }
   // A file name need not be UTF-8.
   write_file(folder_ / "summary.json",
              summary.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
-  // The largest last: a disk that is full for them has taken the rest.
-  write_ply(folder_ / "map.ply", map);
-  write_pcd(folder_ / "map.pcd", map);
-  if (misfit) throw *misfit;
+  if (fault) throw *fault;
   return report;
 }
 

@@ -17,6 +17,7 @@
 #include "app/result_writer.hpp"
 #include "app/run_folder.hpp"
 #include "app/scan_prefetcher.hpp"
+#include "io/blob_file.hpp"
 #include "io/error.hpp"
 #include "io/recognise_sensor.hpp"
 #include "io/scan_source.hpp"
@@ -159,7 +160,8 @@ void run(const Options& options, int& exit_code) {
 
   const std::filesystem::path folder = make_run_folder(options.output, options.input);
   ResultWriter writer(folder, sensor, settings);
-  Slam slam(sensor, settings, std::max(options.threads - 1, 1));
+  Slam slam(sensor, settings, std::max(options.threads - 1, 1), {},
+            std::make_shared<BlobFile>(folder / "key_frames.bin"));
   catch_interrupts();
   {
     Progress progress(expected_scans(input.source(), options), options.quiet);

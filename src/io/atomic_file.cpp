@@ -25,6 +25,12 @@ void AtomicFile::write(std::string_view bytes) {
   if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail(errno);
 }
 
+void AtomicFile::overwrite_beginning(std::string_view bytes) {
+  if (std::fseek(file_, 0, SEEK_SET) != 0) fail(errno);
+  write(bytes);
+  if (std::fseek(file_, 0, SEEK_END) != 0) fail(errno);
+}
+
 void AtomicFile::commit() {
   // A full disk may show only when the last buffer goes out, in fclose.
   if (std::fclose(std::exchange(file_, nullptr)) != 0 ||

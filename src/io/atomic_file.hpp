@@ -18,6 +18,8 @@ class AtomicFile {
   AtomicFile& operator=(const AtomicFile&) = delete;
 
   void write(std::string_view bytes);
+  /// Puts bytes over those that were written first.
+  void overwrite_beginning(std::string_view bytes);
   void commit();
 
  private:

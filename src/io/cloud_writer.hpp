@@ -2,19 +2,39 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string_view>
-#include <vector>
 
 #include "core/map_point.hpp"
+#include "io/atomic_file.hpp"
 
 namespace lego_loam_sc {
 
 // Binary little-endian files. They replace an old file at once and throw InputError when that
 // fails.
 
-/// x y z (m), intensity (float32) and key_frame (int32) of each point.
-void write_ply(const std::filesystem::path& path, const std::vector<MapPoint>& points);
-void write_pcd(const std::filesystem::path& path, const std::vector<MapPoint>& points);
+enum class CloudFormat { ply, pcd };
+
+/// x y z (m), intensity (float32) and key_frame (int32) of points that come bit by bit.
+class CloudFile {
+ public:
+  CloudFile(const std::filesystem::path& path, CloudFormat format);
+
+  void add(std::span<const MapPoint> points);
+  /// Only now the file is there.
+  void commit();
+
+ private:
+  AtomicFile file_;
+  CloudFormat format_;
+  std::size_t count_ = 0;
+};
+
+/// The same of points that are all at hand.
+/// @{
+void write_ply(const std::filesystem::path& path, std::span<const MapPoint> points);
+void write_pcd(const std::filesystem::path& path, std::span<const MapPoint> points);
+/// @}
 
 /// A PLY file of any properties: their lines in the header, each with its end of line, and the
 /// bytes of `count` points, of which each holds them in that order without padding.

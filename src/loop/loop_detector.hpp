@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/pose.hpp"
-#include "loop/key_frame.hpp"
+#include "loop/key_frames.hpp"
 #include "loop/loop_candidate.hpp"
 
 namespace lego_loam_sc {
@@ -14,7 +14,7 @@ namespace lego_loam_sc {
 /// Where a detector may look: all key frames and where the pose graph has them (`T_map_key`). The
 /// last one is the query; those before `eligible` belong to another visit, see LoopSettings.
 struct LoopQuery {
-  std::span<const KeyFrame> key_frames;
+  const KeyFrames& key_frames;
   std::span<const Pose> T_map_key;
   int eligible = 0;
 };

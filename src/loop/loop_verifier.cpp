@@ -36,11 +36,10 @@ void append(const std::vector<FeaturePoint>& points, const Eigen::Isometry3f& T_
 Features merge(std::span<const PlacedKeyFrame> key_frames) {
   Features merged;
   for (const PlacedKeyFrame& placed : key_frames) {
-    const Features own = unpack(*placed.key_frame);
     const Eigen::Isometry3f T = placed.T_frame_key.cast<float>();
-    append(own.planars_large, T, merged.planars_large);
-    append(own.edges_large, T, merged.edges_large);
-    append(own.scattered, T, merged.scattered);
+    append(placed.features.planars_large, T, merged.planars_large);
+    append(placed.features.edges_large, T, merged.edges_large);
+    append(placed.features.scattered, T, merged.scattered);
   }
   return merged;
 }

@@ -7,7 +7,7 @@
 
 #include "core/pose.hpp"
 #include "core/settings.hpp"
-#include "loop/key_frame.hpp"
+#include "features/features.hpp"
 
 namespace lego_loam_sc {
 
@@ -27,9 +27,9 @@ enum class Verdict {
 /// As it stands in loops.csv.
 std::string_view to_string(Verdict verdict);
 
-/// A key frame and where it stands.
+/// The features of a key frame, see unpack(), and where it stands.
 struct PlacedKeyFrame {
-  const KeyFrame* key_frame = nullptr;  ///< never null
+  Features features;
   Pose T_frame_key = Pose::Identity();  ///< in the frame of the query or of the match
 };
 

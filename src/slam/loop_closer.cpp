@@ -24,23 +24,24 @@ constexpr double kJoinOverlap = 0.75;
 
 // Key frames near `center`, at most so many on each side, placed in its frame by the pose graph.
 std::vector<PlacedKeyFrame> placed_round(int center, int before, int after,
-                                         std::span<const KeyFrame> key_frames, const Pieces& pieces,
+                                         const KeyFrames& key_frames, const Pieces& pieces,
                                          std::span<const Pose> T_map_key) {
   const int first = std::max(center - before, 0);
   const int last = std::min(center + after, static_cast<int>(key_frames.size()) - 1);
   const Pose T_center_map = T_map_key[center].inverse();
   std::vector<PlacedKeyFrame> placed;
   for (int k = first; k <= last; ++k)
-    if (pieces.same(k, center)) placed.push_back({&key_frames[k], T_center_map * T_map_key[k]});
+    if (pieces.same(k, center))
+      placed.push_back({key_frames.features(k), T_center_map * T_map_key[k]});
   return placed;
 }
 
 // The longest way from one key frame to the other that drift may have built up on. What lies
 // between pieces was not measured: a loop joined them, anywhere on the drive.
-double way_between(const LoopCandidate& candidate, std::span<const KeyFrame> key_frames,
+double way_between(const LoopCandidate& candidate, const KeyFrames& key_frames,
                    const Pieces& pieces) {
-  const double now = key_frames[candidate.query].travelled;
-  return pieces.same(candidate.query, candidate.match) ? now - key_frames[candidate.match].travelled
+  const double now = key_frames.travelled(candidate.query);
+  return pieces.same(candidate.query, candidate.match) ? now - key_frames.travelled(candidate.match)
                                                        : now;
 }
 
@@ -64,16 +65,16 @@ LoopCloser::LoopCloser(const LoopSettings& settings, const GraphSettings& graph,
       detector_(std::move(detector)),
       contexts_(settings.scan_context) {}
 
-std::vector<LoopCandidate> LoopCloser::candidates(std::span<const KeyFrame> key_frames,
+std::vector<LoopCandidate> LoopCloser::candidates(const KeyFrames& key_frames,
                                                   const Pieces& pieces,
                                                   const PoseGraph& graph) const {
   const int query = static_cast<int>(key_frames.size()) - 1;
-  const KeyFrame& now = key_frames.back();
   int eligible = 0;  // key frames that are another visit, not the same one going on
   while (eligible < query &&
          (!pieces.same(eligible, query) ||
-          (now.travelled - key_frames[eligible].travelled >= settings_.min_travel &&
-           1e-9 * static_cast<double>(now.reference_ns - key_frames[eligible].reference_ns) >=
+          (key_frames.travelled(query) - key_frames.travelled(eligible) >= settings_.min_travel &&
+           1e-9 * static_cast<double>(key_frames.reference_ns(query) -
+                                      key_frames.reference_ns(eligible)) >=
                settings_.min_seconds)))
     ++eligible;
 
@@ -106,7 +107,7 @@ std::vector<LoopCandidate> LoopCloser::candidates(std::span<const KeyFrame> key_
 }
 
 LoopVerification LoopCloser::verify(const LoopCandidate& candidate,
-                                    std::span<const KeyFrame> key_frames, const Pieces& pieces,
+                                    const KeyFrames& key_frames, const Pieces& pieces,
                                     const PoseGraph& graph) const {
   const VerifierSettings& settings = settings_.verifier;
   const std::vector<Pose>& poses = graph.poses();
@@ -147,11 +148,11 @@ LoopVerification LoopCloser::verify(const LoopCandidate& candidate,
   return result;
 }
 
-std::vector<LoopReport> LoopCloser::close(std::span<const KeyFrame> key_frames, Pieces& pieces,
+std::vector<LoopReport> LoopCloser::close(const KeyFrames& key_frames, Pieces& pieces,
                                           PoseGraph& graph) {
   std::vector<LoopReport> reports;
-  const KeyFrame& now = key_frames.back();
-  const bool just_closed = now.travelled - last_loop_travelled_ < settings_.spacing;
+  const double now = key_frames.travelled(key_frames.size() - 1);
+  const bool just_closed = now - last_loop_travelled_ < settings_.spacing;
   if (just_closed && pieces.maps() == 1) return reports;
 
   for (const LoopCandidate& candidate : candidates(key_frames, pieces, graph)) {
@@ -175,7 +176,7 @@ std::vector<LoopReport> LoopCloser::close(std::span<const KeyFrame> key_frames, 
       continue;
     }
     if (joins) pieces.join(candidate.match, candidate.query);
-    last_loop_travelled_ = now.travelled;
+    last_loop_travelled_ = now;
     break;  // one loop for each key frame
   }
   return reports;

@@ -7,7 +7,7 @@
 
 #include "core/settings.hpp"
 #include "graph/pose_graph.hpp"
-#include "loop/key_frame.hpp"
+#include "loop/key_frames.hpp"
 #include "loop/loop_candidate.hpp"
 #include "loop/loop_detector.hpp"
 #include "loop/ring_key_index.hpp"
@@ -30,13 +30,13 @@ class LoopCloser {
   /// Looks for loops that end at the newest key frame and adds accepted ones to the graph, which
   /// may join pieces. The graph is optimised, and a loop that the others contradict is taken out
   /// again. Returns every candidate that was verified.
-  std::vector<LoopReport> close(std::span<const KeyFrame> key_frames, Pieces& pieces,
+  std::vector<LoopReport> close(const KeyFrames& key_frames, Pieces& pieces,
                                 PoseGraph& graph);
 
  private:
-  std::vector<LoopCandidate> candidates(std::span<const KeyFrame> key_frames, const Pieces& pieces,
+  std::vector<LoopCandidate> candidates(const KeyFrames& key_frames, const Pieces& pieces,
                                         const PoseGraph& graph) const;
-  LoopVerification verify(const LoopCandidate& candidate, std::span<const KeyFrame> key_frames,
+  LoopVerification verify(const LoopCandidate& candidate, const KeyFrames& key_frames,
                           const Pieces& pieces, const PoseGraph& graph) const;
 
   LoopSettings settings_;

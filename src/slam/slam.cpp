@@ -72,18 +72,20 @@ bool confirms(const MapMatch& match) {
 
 struct Slam::State {
   State(const SensorModel& sensor_model, const Settings& slam_settings, int threads,
-        LoopDetector loop_detector)
+        LoopDetector loop_detector, std::shared_ptr<BlobStore> blob_store)
       : given_sensor(sensor_model),
         sensor(sensor_model),
         settings(checked(sensor_model, slam_settings)),
         detector(std::move(loop_detector)),
+        point_store(std::move(blob_store)),
         arena(std::max(threads, 1)),
         clock(sensor.period),
         height(sensor.height),
         odometry(settings.odometry, sensor.range_noise),
         mapper(settings.mapping, sensor.range_noise, row_spacing(sensor)),
         loop_closer(settings.loop, settings.graph, sensor.range_noise, detector),
-        graph(settings.graph) {}
+        graph(settings.graph),
+        key_frames(point_store) {}
 
   ScanReport process(const Scan& scan);
   Motion predict_and_match(const Features& features, double seconds, ScanReport& report);
@@ -91,7 +93,7 @@ struct Slam::State {
                   ScanReport& report);
   bool is_key_frame(const Pose& pose) const;
   void begin_piece(ScanReport& report);
-  void add_key_frame(KeyFrame key_frame, const MapMatch& match, ScanContext context);
+  void add_key_frame(const KeyFrame& key_frame, const MapMatch& match, ScanContext context);
   void close_loops(ScanReport& report);
   void rebuild_local_map();
   Pose of_lidar(Pose T_frame_level) const;
@@ -100,6 +102,7 @@ struct Slam::State {
   SensorModel sensor;  // the same with the tilt and the elevations that were found on the way
   Settings settings;
   LoopDetector detector;
+  std::shared_ptr<BlobStore> point_store;
   tbb::task_arena arena;
   ScanClock clock;
 
@@ -110,7 +113,7 @@ struct Slam::State {
   PoseGraph graph;
   Pieces pieces;
   TransformFusion fusion;
-  std::vector<KeyFrame> key_frames;
+  KeyFrames key_frames;
   std::vector<int> scan_of_key_frame;
   Trajectory live;
 
@@ -322,7 +325,8 @@ bool Slam::State::is_key_frame(const Pose& pose) const {
          rotation_angle(since) >= radians(settings.key_frames.rotation_deg);
 }
 
-void Slam::State::add_key_frame(KeyFrame key_frame, const MapMatch& match, ScanContext context) {
+void Slam::State::add_key_frame(const KeyFrame& key_frame, const MapMatch& match,
+                                ScanContext context) {
   const int number = static_cast<int>(key_frames.size());
   if (number == 0) {
     graph.add_first(match.T_map_lidar);
@@ -335,7 +339,7 @@ void Slam::State::add_key_frame(KeyFrame key_frame, const MapMatch& match, ScanC
     graph.add_key_frame(
         {number - 1, number, graph.poses().back().inverse() * match.T_map_lidar, covariance});
   }
-  key_frames.push_back(std::move(key_frame));
+  key_frames.add(key_frame);
   loop_closer.add_key_frame(std::move(context));
 }
 
@@ -360,7 +364,7 @@ void Slam::State::rebuild_local_map() {
     const Pose& T_map_key = graph.poses()[k];
     if (!pieces.joined(static_cast<int>(k), static_cast<int>(key_frames.size()) - 1)) continue;
     if ((T_map_key.translation() - here).norm() > settings.mapping.radius) continue;
-    mapper.insert(unpack(key_frames[k]), T_map_key);
+    mapper.insert(key_frames.features(k), T_map_key);
   }
 }
 
@@ -370,8 +374,10 @@ Pose Slam::State::of_lidar(Pose T_frame_level) const {
   return T_frame_level;
 }
 
-Slam::Slam(const SensorModel& sensor, const Settings& settings, int threads, LoopDetector detector)
-    : state_(std::make_unique<State>(sensor, settings, threads, std::move(detector))) {}
+Slam::Slam(const SensorModel& sensor, const Settings& settings, int threads, LoopDetector detector,
+           std::shared_ptr<BlobStore> points)
+    : state_(std::make_unique<State>(sensor, settings, threads, std::move(detector),
+                                     std::move(points))) {}
 Slam::~Slam() = default;
 Slam::Slam(Slam&&) noexcept = default;
 Slam& Slam::operator=(Slam&&) noexcept = default;
@@ -397,7 +403,8 @@ ScanReport Slam::begin_again(const Scan& first, const Scan& second, ScanReport r
         motion.head<3>().norm() < state_->sensor.range_noise)
       break;
     auto again = std::make_unique<State>(state_->given_sensor, state_->settings,
-                                         state_->arena.max_concurrency(), state_->detector);
+                                         state_->arena.max_concurrency(), state_->detector,
+                                         state_->point_store);
     again->twist = state_->twist;
     again->speed = state_->twist.head<3>().norm();
     again->arena.execute([&] {
@@ -415,7 +422,7 @@ const Trajectory& Slam::odometry() const {
 Trajectory Slam::trajectory() const {
   return state_->fusion.fuse(state_->graph.poses());
 }
-const std::vector<KeyFrame>& Slam::key_frames() const {
+const KeyFrames& Slam::key_frames() const {
   return state_->key_frames;
 }
 const PoseGraph& Slam::graph() const {

@@ -24,10 +24,11 @@ namespace lego_loam_sc {
 class Slam {
  public:
   /// `threads` bounds all threads that work is spread over; `detector` looks for loops beside those
-  /// that the settings switch on. Throws std::invalid_argument when the sensor or a setting is not
+  /// that the settings switch on; `points` takes the points of the key frames, memory when there is
+  /// none. Throws std::invalid_argument when the sensor or a setting is not
   /// valid.
   Slam(const SensorModel& sensor, const Settings& settings, int threads = 1,
-       LoopDetector detector = {});
+       LoopDetector detector = {}, std::shared_ptr<BlobStore> points = {});
   ~Slam();
   Slam(Slam&&) noexcept;
   Slam& operator=(Slam&&) noexcept;
@@ -42,7 +43,7 @@ class Slam {
   Trajectory trajectory() const;
   /// @}
 
-  const std::vector<KeyFrame>& key_frames() const;  ///< in the order of time
+  const KeyFrames& key_frames() const;  ///< in the order of time
   const PoseGraph& graph() const;  ///< has the poses of the key frames and the loops
 
   /// Number of maps that no loop joins: 1 unless the way was lost. Where they lie to each other is

@@ -116,7 +116,7 @@ ScanReport process(Slam& slam, const Scan& scan) {
 PythonTrajectory key_frames(const Slam& slam) {
   PythonTrajectory result;
   for (std::size_t k = 0; k < slam.key_frames().size(); ++k)
-    result.poses.push_back({slam.key_frames()[k].reference_ns, slam.graph().poses()[k]});
+    result.poses.push_back({slam.key_frames().reference_ns(k), slam.graph().poses()[k]});
   return result;
 }
 
@@ -125,7 +125,7 @@ std::vector<Eigen::Vector4f> key_frame_points(const Slam& slam, std::size_t numb
     throw nb::index_error(("there are " + std::to_string(slam.key_frames().size()) +
                            " key frames, no number " + std::to_string(number))
                               .c_str());
-  const KeyFrame& key_frame = slam.key_frames()[number];
+  const KeyFrame key_frame = slam.key_frames()[number];
   std::vector<Eigen::Vector4f> points;
   for (const auto* part : {&key_frame.planars, &key_frame.edges, &key_frame.others})
     for (const PackedPoint& point : *part)

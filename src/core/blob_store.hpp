@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <vector>
+
+namespace lego_loam_sc {
+
+/// Bytes that are written once and seldom read: the points of all key frames, most of what a drive
+/// leaves behind. The application gives the SLAM one that keeps them in a file (io/blob_file.hpp).
+class BlobStore {
+ public:
+  virtual ~BlobStore() = default;
+
+  virtual std::uint64_t size() const = 0;  ///< bytes
+  /// Adds bytes at the end.
+  virtual void append(std::span<const std::byte> bytes) = 0;
+  /// Fills `bytes` with those from `offset` on, all of which must have been appended.
+  virtual void read(std::uint64_t offset, std::span<std::byte> bytes) const = 0;
+  virtual void clear() = 0;
+};
+
+class MemoryBlobs : public BlobStore {
+ public:
+  std::uint64_t size() const override { return bytes_.size(); }
+  void append(std::span<const std::byte> bytes) override {
+    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+  }
+  void read(std::uint64_t offset, std::span<std::byte> bytes) const override {
+    if (!bytes.empty()) std::memcpy(bytes.data(), bytes_.data() + offset, bytes.size());
+  }
+  void clear() override { bytes_.clear(); }
+
+ private:
+  std::vector<std::byte> bytes_;
+};
+
+}  // namespace lego_loam_sc

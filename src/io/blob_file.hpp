@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+
+#include "core/blob_store.hpp"
+
+namespace lego_loam_sc {
+
+/// Keeps the bytes in a file, which is removed in the end. Throws InputError when it cannot be
+/// written or read.
+class BlobFile : public BlobStore {
+ public:
+  /// An existing file is emptied.
+  explicit BlobFile(std::filesystem::path path);
+  ~BlobFile() override;
+  BlobFile(const BlobFile&) = delete;
+  BlobFile& operator=(const BlobFile&) = delete;
+
+  std::uint64_t size() const override { return size_; }
+  void append(std::span<const std::byte> bytes) override;
+  void read(std::uint64_t offset, std::span<std::byte> bytes) const override;
+  void clear() override;
+
+ private:
+  [[noreturn]] void fail(const char* what, int error) const;
+
+  std::filesystem::path path_;
+  int file_ = -1;
+  std::uint64_t size_ = 0;
+};
+
+}  // namespace lego_loam_sc
