@@ -105,7 +105,9 @@ TEST(Mapper, FindsTheVelocityOfASweepThatTheMotionBeforeDidNotHave) {
 }
 
 TEST(Mapper, StandingStillAddsNothing) {
-  Mapper mapper({}, kNoise);
+  MappingSettings settings;
+  settings.match_points = 0;  // the same ones each time
+  Mapper mapper(settings, kNoise);
   const Pose at = pose_of(0, 4, kMadeHeight), near = pose_of(0.02, 4, kMadeHeight);
   const Features features = features_at(hall(), at, 60, kMadeHeight);
   mapper.insert(features, at);
@@ -124,6 +126,18 @@ TEST(Mapper, DoesNotMatchWhenTheMapIsElsewhere) {
   const MapMatch match = mapper.refine(features, {guess, guess, Pose::Identity(), 0.1});
   EXPECT_FALSE(match.matched);
   EXPECT_EQ(match.T_map_lidar.matrix(), guess.matrix());
+}
+
+TEST(Mapper, TakesAboutAsManyPointsAsItShould) {
+  MappingSettings settings;
+  settings.match_points = 2000;
+  Mapper mapper = mapped(hall(), kMadeHeight, settings);
+  const Pose at = pose_of(0, 4, kMadeHeight);
+  const Features features = features_at(hall(), at, 61, kMadeHeight);
+  int points = 0;
+  for (int k = 0; k < 8; ++k)
+    points = mapper.refine(features, {at, at, Pose::Identity(), 0.1}).points;
+  EXPECT_NEAR(points, 2000, 200);
 }
 
 TEST(Mapper, DoesNotMatchNothing) {

@@ -18,7 +18,7 @@ class BlobStore {
   virtual std::uint64_t size() const = 0;  ///< bytes
   /// Adds bytes at the end.
   virtual void append(std::span<const std::byte> bytes) = 0;
-  /// Fills `bytes` with those from `offset` on, all of which must have been appended.
+  /// Fills `bytes` with those from `offset` on, which must have been appended at once.
   virtual void read(std::uint64_t offset, std::span<std::byte> bytes) const = 0;
   virtual void clear() = 0;
 };

@@ -40,15 +40,22 @@ BlobFile::~BlobFile() {
 }
 
 void BlobFile::append(std::span<const std::byte> bytes) {
-  const int error = repeat(bytes.size(), [&](std::size_t done) {
+  const bool full = !overflow_.empty() || repeat(bytes.size(), [&](std::size_t done) {
     return ::pwrite(file_, bytes.data() + done, bytes.size() - done,
-                    static_cast<off_t>(size_ + done));
-  });
-  if (error) fail("written", error);
-  size_ += bytes.size();
+                    static_cast<off_t>(in_file_ + done));
+  }) != 0;
+  if (full)
+    overflow_.insert(overflow_.end(), bytes.begin(), bytes.end());
+  else
+    in_file_ += bytes.size();
 }
 
 void BlobFile::read(std::uint64_t offset, std::span<std::byte> bytes) const {
+  if (bytes.empty()) return;
+  if (offset >= in_file_) {  // what was appended at once is in one place
+    std::memcpy(bytes.data(), overflow_.data() + (offset - in_file_), bytes.size());
+    return;
+  }
   const int error = repeat(bytes.size(), [&](std::size_t done) {
     return ::pread(file_, bytes.data() + done, bytes.size() - done,
                    static_cast<off_t>(offset + done));
@@ -58,7 +65,8 @@ void BlobFile::read(std::uint64_t offset, std::span<std::byte> bytes) const {
 
 void BlobFile::clear() {
   if (::ftruncate(file_, 0) != 0) fail("written", errno);
-  size_ = 0;
+  in_file_ = 0;
+  overflow_.clear();
 }
 
 void BlobFile::fail(const char* what, int error) const {

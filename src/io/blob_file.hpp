@@ -7,8 +7,8 @@
 
 namespace lego_loam_sc {
 
-/// Keeps the bytes in a file, which is removed in the end. Throws InputError when it cannot be
-/// written or read.
+/// Keeps the bytes in a file, which is removed in the end; what the disk has no room for stays in
+/// memory. Throws InputError when the file cannot be made or read.
 class BlobFile : public BlobStore {
  public:
   /// An existing file is emptied.
@@ -17,7 +17,7 @@ class BlobFile : public BlobStore {
   BlobFile(const BlobFile&) = delete;
   BlobFile& operator=(const BlobFile&) = delete;
 
-  std::uint64_t size() const override { return size_; }
+  std::uint64_t size() const override { return in_file_ + overflow_.size(); }
   void append(std::span<const std::byte> bytes) override;
   void read(std::uint64_t offset, std::span<std::byte> bytes) const override;
   void clear() override;
@@ -27,7 +27,8 @@ class BlobFile : public BlobStore {
 
   std::filesystem::path path_;
   int file_ = -1;
-  std::uint64_t size_ = 0;
+  std::uint64_t in_file_ = 0;
+  std::vector<std::byte> overflow_;
 };
 
 }  // namespace lego_loam_sc

@@ -172,7 +172,8 @@ Mapper::Mapper(const MappingSettings& settings, double range_noise, double row_s
     : settings_(settings),
       range_noise_(std::max(range_noise, 1e-3)),
       map_(settings.voxel_size, settings.levels, settings.planarity, row_spacing),
-      spacing_(settings.match_spacing) {}
+      spacing_(settings.match_points == 0 ? settings.match_spacing
+                                          : kLeastSpacing * settings.match_spacing) {}
 
 // The points that a scan leaves lie on surfaces: a quarter of them at twice the spacing. The scan
 // shows what the next one will leave.
