@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "features/features.hpp"
+#include "graph.hpp"
 #include "io/recognise_sensor.hpp"
 #include "io/scan_source.hpp"
 #include "loop/ring_key_index.hpp"
@@ -125,7 +126,8 @@ void add_matching(const Fixture& f) {
   const auto mapper = std::make_shared<Mapper>(f.settings.mapping, f.sensor.range_noise);
   mapper->insert(f.before().features, Pose::Identity());
   add("map_match", [&f, mapper] {
-    return mapper->refine(f.now().features, {Pose::Identity(), Pose::Identity(), f.sensor.period});
+    return mapper->refine(f.now().features, {Pose::Identity(), Pose::Identity(), Pose::Identity(),
+                                             f.sensor.period});
   });
   add("map_insert", [&f, mapper] {
     mapper->insert(f.before().features, Pose::Identity());
@@ -165,6 +167,7 @@ int main(int argc, char** argv) {
     lego_loam_sc::add_front_end(argv[1], fixture);
     lego_loam_sc::add_matching(fixture);
     lego_loam_sc::add_loops(fixture);
+    lego_loam_sc::add_graph_benchmarks();
     benchmark::RunSpecifiedBenchmarks();
   } catch (const std::exception& error) {
     std::fprintf(stderr, "lego_loam_sc_micro: %s\n", error.what());
