@@ -17,7 +17,7 @@ constexpr double kKernelSpreads = 2.0;
 constexpr double kMinScale = 1.0;
 constexpr double kMaxScale = 20.0;
 // A degenerate direction is tied to the guess with this sigma, m or rad.
-constexpr double kTied = 1e-6;
+constexpr double kTied = 1e-3;
 // The spacing of the matched points, as a share of the setting, in the smallest spaces.
 constexpr double kLeastSpacing = 0.125;
 // The finest voxels come into use when the spacing falls below so many of them, and out of use when
