@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -33,6 +34,10 @@ struct Features {
   std::vector<FeaturePoint> planars_large;  ///< large F_p
   std::vector<FeaturePoint> scattered;      ///< what stands on the ground, where edges are scarce
 };
+
+/// The sets that maps and key frames are made of.
+inline constexpr std::array kMapSets = {&Features::planars_large, &Features::edges_large,
+                                        &Features::scattered};
 
 /// Selects features evenly: from each row and each of its sub-images, by roughness.
 Features extract_features(const RangeImage& image, const Segmentation& segmentation,

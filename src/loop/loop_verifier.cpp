@@ -37,9 +37,7 @@ Features merge(std::span<const PlacedKeyFrame> key_frames) {
   Features merged;
   for (const PlacedKeyFrame& placed : key_frames) {
     const Eigen::Isometry3f T = placed.T_frame_key.cast<float>();
-    append(placed.features.planars_large, T, merged.planars_large);
-    append(placed.features.edges_large, T, merged.edges_large);
-    append(placed.features.scattered, T, merged.scattered);
+    for (const auto set : kMapSets) append(placed.features.*set, T, merged.*set);
   }
   return merged;
 }
@@ -47,9 +45,10 @@ Features merge(std::span<const PlacedKeyFrame> key_frames) {
 double overlap(const Features& query, LocalMap& map, const Pose& pose) {
   std::size_t inside = 0;
   std::size_t all = 0;
-  for (const auto* points : {&query.planars_large, &query.edges_large, &query.scattered}) {
-    all += points->size();
-    for (const FeaturePoint& p : *points) inside += map.occupied(pose * p.position.cast<double>());
+  for (const auto set : kMapSets) {
+    all += (query.*set).size();
+    for (const FeaturePoint& p : query.*set)
+      inside += map.occupied(pose * p.position.cast<double>());
   }
   return all > 0 ? static_cast<double>(inside) / static_cast<double>(all) : 0.0;
 }

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mapping/local_map.hpp"
 
-#include <limits>
+#include <span>
 
 namespace lego_loam_sc {
 namespace {
 
-void insert_into(std::vector<SurfaceMap>& maps, const std::vector<double>& reach,
+// Levels that `reach` does not list take points of all ranges.
+bool reaches(std::span<const double> reach, std::size_t level, double range) {
+  return level >= reach.size() || range <= reach[level];
+}
+
+void insert_into(std::vector<SurfaceMap>& maps, std::span<const double> reach,
                  const std::vector<FeaturePoint>& points, const Pose& T_map_points,
                  int first_level) {
   std::vector<Eigen::Vector3d> moved;
@@ -16,7 +21,7 @@ void insert_into(std::vector<SurfaceMap>& maps, const std::vector<double>& reach
     ranges.clear();
     for (const FeaturePoint& p : points) {
       const double range = p.position.head<2>().norm();
-      if (range > reach[level]) continue;
+      if (!reaches(reach, level, range)) continue;
       moved.push_back(T_map_points * p.position.cast<double>());
       ranges.push_back(range);
     }
@@ -43,13 +48,13 @@ bool is_where_it_was(const std::vector<SurfaceMap>& maps, const MatchedSurfaces:
 
 // Looks for the surfaces of some points, finest level first. One level is done for all of them
 // before the next, so that the memory of many blocks is fetched at a time.
-void look_up(std::vector<SurfaceMap>& maps, const std::vector<double>& reach,
+void look_up(std::vector<SurfaceMap>& maps, std::span<const double> reach,
              const std::vector<FeaturePoint>& points, const std::vector<Eigen::Vector3d>& moved,
              int first_level, std::vector<std::uint32_t>& wanted,
              std::vector<MatchedSurfaces::Entry>& entries) {
   for (std::size_t level = first_level; level < maps.size() && !wanted.empty(); ++level) {
     for (const std::uint32_t i : wanted) {
-      const bool within = points[i].position.head<2>().norm() <= reach[level];
+      const bool within = reaches(reach, level, points[i].position.head<2>().norm());
       VoxelKey& block = entries[i].blocks[level];
       block = within ? maps[level].block_of(moved[i]) : kNoBlock;
       maps[level].prefetch(block);
@@ -64,7 +69,7 @@ void look_up(std::vector<SurfaceMap>& maps, const std::vector<double>& reach,
   wanted.clear();
 }
 
-void match_with(std::vector<SurfaceMap>& maps, const std::vector<double>& reach,
+void match_with(std::vector<SurfaceMap>& maps, std::span<const double> reach,
                 const std::vector<FeaturePoint>& points, const Pose& T_map_points,
                 double max_distance, double range_noise, int first_level,
                 std::vector<MatchedSurfaces::Entry>& entries,
@@ -97,12 +102,9 @@ void match_with(std::vector<SurfaceMap>& maps, const std::vector<double>& reach,
 LocalMap::LocalMap(double voxel_size, int levels, double planarity, double row_spacing) {
   for (int level = 0; level < levels; ++level) {
     const double size = voxel_size * (1 << level);
-    const bool coarsest = level == levels - 1;
-    reach_.push_back(coarsest || row_spacing == 0.0 ? std::numeric_limits<double>::infinity()
-                                                    : 2.0 * size / row_spacing);
+    if (level < levels - 1 && row_spacing > 0.0) reach_.push_back(2.0 * size / row_spacing);
     planes_.emplace_back(SurfaceMapSettings{Surface::Kind::plane, size, planarity});
     lines_.emplace_back(SurfaceMapSettings{Surface::Kind::line, size, planarity});
-    everywhere_.push_back(std::numeric_limits<double>::infinity());
     scattered_.emplace_back(SurfaceMapSettings{Surface::Kind::point, size, planarity});
   }
 }
@@ -110,7 +112,7 @@ LocalMap::LocalMap(double voxel_size, int levels, double planarity, double row_s
 void LocalMap::insert(const Features& features, const Pose& T_map_points, int first_level) {
   insert_into(planes_, reach_, features.planars_large, T_map_points, first_level);
   insert_into(lines_, reach_, features.edges_large, T_map_points, first_level);
-  insert_into(scattered_, everywhere_, features.scattered, T_map_points, first_level);
+  insert_into(scattered_, {}, features.scattered, T_map_points, first_level);
 }
 
 std::vector<Correspondence> LocalMap::match(const Features& features, const Pose& T_map_points,
@@ -121,7 +123,7 @@ std::vector<Correspondence> LocalMap::match(const Features& features, const Pose
              first_level, last.planes, correspondences);
   match_with(lines_, reach_, features.edges_large, T_map_points, max_distance, range_noise,
              first_level, last.lines, correspondences);
-  match_with(scattered_, everywhere_, features.scattered, T_map_points, max_distance, range_noise,
+  match_with(scattered_, {}, features.scattered, T_map_points, max_distance, range_noise,
              first_level, last.scattered, correspondences);
   return correspondences;
 }

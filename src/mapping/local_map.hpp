@@ -54,8 +54,7 @@ class LocalMap {
   std::size_t size() const;
 
  private:
-  std::vector<double> reach_;       // m, to which each level takes points of planes and lines
-  std::vector<double> everywhere_;  // the same without a limit
+  std::vector<double> reach_;       // m, up to which the finer levels take planes and lines
   std::vector<SurfaceMap> planes_;  // finest first
   std::vector<SurfaceMap> lines_;
   std::vector<SurfaceMap> scattered_;

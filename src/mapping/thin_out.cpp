@@ -6,13 +6,9 @@
 namespace lego_loam_sc {
 
 Features thin_out(const Features& features, double spacing) {
-  const auto thinned = [&](const std::vector<FeaturePoint>& points) {
-    return voxel_filter(points, spacing, [](const FeaturePoint& p) { return p.position; });
-  };
+  const auto position = [](const FeaturePoint& p) { return p.position; };
   Features thin;
-  thin.planars_large = thinned(features.planars_large);
-  thin.edges_large = thinned(features.edges_large);
-  thin.scattered = thinned(features.scattered);
+  for (const auto set : kMapSets) thin.*set = voxel_filter(features.*set, spacing, position);
   return thin;
 }
 

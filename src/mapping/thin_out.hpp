@@ -5,8 +5,7 @@
 
 namespace lego_loam_sc {
 
-/// The large sets and the scattered points, each with one point for each voxel of `spacing` m (0 =
-/// all).
+/// The sets of maps, each with one point for each voxel of `spacing` m (0 = all).
 Features thin_out(const Features& features, double spacing);
 
 }  // namespace lego_loam_sc
