@@ -3,6 +3,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include "io/recognise_sensor.hpp"
+#include "io/sensor_yaml.hpp"
+
 namespace lego_loam_sc {
 
 void add_common_options(CLI::App& command, CommonOptions& options) {
@@ -13,6 +16,11 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
   command.add_option("--config", options.config, "YAML file with settings");
   command.add_option("--set", options.assignments, "one setting, key=value; may be repeated")
       ->allow_extra_args(false);
+}
+
+SensorModel choose_sensor(const std::optional<std::string>& asked, const Scan& scan,
+                          const DatasetFacts& facts) {
+  return asked ? with_facts(load_sensor(*asked), facts) : recognise_sensor(scan, facts);
 }
 
 }  // namespace lego_loam_sc

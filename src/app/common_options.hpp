@@ -6,6 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "core/scan.hpp"
+#include "core/sensor_model.hpp"
+#include "io/dataset_facts.hpp"
+
 namespace CLI {
 class App;
 }
@@ -21,5 +25,10 @@ struct CommonOptions {
 };
 
 void add_common_options(CLI::App& command, CommonOptions& options);
+
+/// The sensor that was asked for, with the facts applied, or else the one that `scan` shows. Throws
+/// InputError when it cannot be told.
+SensorModel choose_sensor(const std::optional<std::string>& asked, const Scan& scan,
+                          const DatasetFacts& facts);
 
 }  // namespace lego_loam_sc

@@ -10,44 +10,38 @@
 
 #include "app/commands.hpp"
 #include "app/common_options.hpp"
-#include "app/external_command.hpp"
 #include "app/run_folder.hpp"
+#include "app/scan_input.hpp"
 #include "app/stage_files.hpp"
 #include "core/pose.hpp"
 #include "io/error.hpp"
 #include "io/recognise_sensor.hpp"
-#include "io/scan_source.hpp"
-#include "io/sensor_yaml.hpp"
 #include "io/settings_yaml.hpp"
 #include "io/text.hpp"
 
 namespace lego_loam_sc {
 namespace {
 
-struct Options {
+struct Options : InputOptions {
   CommonOptions common;
-  std::string input;
-  std::optional<std::string> topic;
   std::optional<std::filesystem::path> output;
-  std::size_t first = 0;
 };
 
-struct Input {
+struct ScanWithFacts {
   Scan scan;
   DatasetFacts facts;
 };
 
-Input read_scan(const Options& options) {
-  std::optional<RecordingReader> reader;
-  if (is_recording(options.input)) reader.emplace(options.input, options.topic, true);
-  const std::unique_ptr<ScanSource> source = open_scans(reader ? "-" : options.input);
-  std::optional<Scan> scan = source->next();
-  for (std::size_t k = 0; scan && k < options.first; ++k) scan = source->next();
-  if (reader) reader->wait();
+ScanWithFacts read_scan(const Options& options) {
+  ScanInput input(options, true);
+  ScanSource& source = input.source();
+  std::optional<Scan> scan = source.next();
+  for (std::size_t k = 0; scan && k < options.first; ++k) scan = source.next();
+  input.wait_for_reader();
   if (!scan)
     throw InputError(options.input + ": there is no scan " + std::to_string(options.first) +
                      " in it; choose another --first");
-  return {std::move(*scan), source->facts()};
+  return {std::move(*scan), source.facts()};
 }
 
 // "0.5 to 80.2"
@@ -88,14 +82,6 @@ std::string describe_scan(const Scan& scan) {
   text +=
       scan.offset_ns.empty() ? ", no times" : ", times " + span_of(scan.offset_ns, 1, 1e-6) + " ms";
   return text + "\n";
-}
-
-SensorModel choose_sensor(const Input& input, const std::optional<std::string>& asked) {
-  const SensorModel sensor = asked ? with_facts(load_sensor(*asked), input.facts)
-                                   : recognise_sensor(input.scan, input.facts);
-  // What does not fit is what one wants to look at.
-  if (const auto mismatch = sensor_mismatch(input.scan, sensor)) spdlog::warn("{}", *mismatch);
-  return sensor;
 }
 
 std::string describe_rows(const RangeImage& image, const SensorModel& sensor) {
@@ -150,13 +136,15 @@ std::string describe_stages(const Scan& scan, const ScanStages& stages, const Se
 void inspect(const Options& options) {
   const CommonOptions& common = options.common;
   const Settings settings = load_settings(common.method, common.config, common.assignments);
-  const Input input = read_scan(options);
-  std::string summary = describe_scan(input.scan);
+  const auto [scan, facts] = read_scan(options);
+  const std::string summary = describe_scan(scan);
   std::printf("%s", summary.c_str());
   std::fflush(stdout);  // it helps with the error that may follow
-  const SensorModel sensor = choose_sensor(input, common.sensor);
-  const ScanStages stages = make_stages(input.scan, sensor, settings);
-  const std::string found = describe_stages(input.scan, stages, sensor);
+  const SensorModel sensor = choose_sensor(common.sensor, scan, facts);
+  // What does not fit is what one wants to look at.
+  if (const auto mismatch = sensor_mismatch(scan, sensor)) spdlog::warn("{}", *mismatch);
+  const ScanStages stages = make_stages(scan, sensor, settings);
+  const std::string found = describe_stages(scan, stages, sensor);
   std::printf("%s", found.c_str());
   if (!options.output) return;
   const std::filesystem::path folder = make_run_folder(options.output, options.input);
@@ -171,9 +159,7 @@ void add_inspect(CLI::App& app) {
   auto* command = app.add_subcommand(
       "inspect", "Show what the front end makes of one scan: rows, ground, clusters, features");
   auto options = std::make_shared<Options>();
-  command->add_option("SCAN", options->input, "a scan, or anything that run takes")->required();
-  command->add_option("--topic", options->topic, "topic of a bag, when several hold PointCloud2");
-  command->add_option("--first", options->first, "number of the scan, from 0");
+  add_input_options(*command, *options, "SCAN", "a scan, or anything that run takes");
   command->add_option("-o,--output", options->output,
                       "folder for the range image and coloured clouds, new or empty");
   add_common_options(*command, options->common);

@@ -8,9 +8,7 @@
 #include "app/commands.hpp"
 #include "app/common_options.hpp"
 #include "io/error.hpp"
-#include "io/recognise_sensor.hpp"
 #include "io/scan_source.hpp"
-#include "io/sensor_yaml.hpp"
 #include "io/settings_yaml.hpp"
 #include "slam/match_scans.hpp"
 
@@ -79,8 +77,7 @@ void add_match(CLI::App& app) {
     const Settings settings = load_settings(common.method, common.config, common.assignments);
     const NamedScan a = only_scan(options->a);
     const NamedScan b = only_scan(options->b);
-    const SensorModel sensor = common.sensor ? with_facts(load_sensor(*common.sensor), a.facts)
-                                             : recognise_sensor(a.scan, a.facts);
+    const SensorModel sensor = choose_sensor(common.sensor, a.scan, a.facts);
     const ScanMatch match = match_scans(a.scan, b.scan, sensor, settings);
     if (options->json) {
       std::cout << to_json(match).dump(2) << "\n";

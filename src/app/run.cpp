@@ -16,12 +16,11 @@
 #include "app/progress.hpp"
 #include "app/result_writer.hpp"
 #include "app/run_folder.hpp"
+#include "app/scan_input.hpp"
 #include "app/scan_prefetcher.hpp"
 #include "io/blob_file.hpp"
 #include "io/error.hpp"
 #include "io/recognise_sensor.hpp"
-#include "io/scan_source.hpp"
-#include "io/sensor_yaml.hpp"
 #include "io/settings_yaml.hpp"
 #include "io/trajectory.hpp"
 #include "slam/slam.hpp"
@@ -29,14 +28,11 @@
 namespace lego_loam_sc {
 namespace {
 
-struct Options {
+struct Options : InputOptions {
   CommonOptions common;
-  std::string input;
-  std::optional<std::string> topic;
   std::optional<std::filesystem::path> output;
   std::optional<std::filesystem::path> truth;
   int threads = 2;
-  std::size_t first = 0;
   std::optional<std::size_t> count;
   bool report = false;
   bool quiet = false;
@@ -46,33 +42,28 @@ struct Options {
 // thread for it.
 class Input {
  public:
-  explicit Input(const Options& options) : left_(options.count) {
-    if (is_recording(options.input))
-      reader_.emplace(options.input, options.topic, options.quiet);
-    else if (options.topic)
-      throw InputError("--topic is for bags, " + options.input + " is none; leave it out");
-    source_ = open_scans(reader_ ? "-" : options.input);
+  explicit Input(const Options& options) : input_(options, options.quiet), left_(options.count) {
     for (std::size_t k = 0; k < options.first; ++k)
-      if (!read_next(*source_)) break;
-    if (options.threads > 1) prefetcher_.emplace(*source_);
+      if (!read_next(input_.source())) break;
+    if (options.threads > 1) prefetcher_.emplace(input_.source());
   }
 
   std::optional<ScanOrFault> next() {
     if (left_ && *left_ == 0) return std::nullopt;
     if (left_) --*left_;
-    std::optional<ScanOrFault> item = prefetcher_ ? prefetcher_->next() : read_next(*source_);
+    std::optional<ScanOrFault> item =
+        prefetcher_ ? prefetcher_->next() : read_next(input_.source());
     at_end_ = !item && !interrupted();
     return item;
   }
 
   // How the reader of a recording ended: 0 when it did well, is not done or there is none.
-  int reader_exit_code() { return reader_ && at_end_ ? reader_->wait() : 0; }
+  int reader_exit_code() { return at_end_ ? input_.wait_for_reader() : 0; }
 
-  const ScanSource& source() const { return *source_; }
+  const ScanSource& source() const { return input_.source(); }
 
  private:
-  std::optional<RecordingReader> reader_;
-  std::unique_ptr<ScanSource> source_;
+  ScanInput input_;
   std::optional<std::size_t> left_;
   bool at_end_ = false;
   std::optional<ScanPrefetcher> prefetcher_;
@@ -118,14 +109,6 @@ std::deque<Scan> leading_scans(Input& input, RunFacts& facts) {
   return leading;
 }
 
-SensorModel choose_sensor(const Scan& scan, const DatasetFacts& dataset,
-                          const std::optional<std::string>& asked) {
-  const SensorModel sensor =
-      asked ? with_facts(load_sensor(*asked), dataset) : recognise_sensor(scan, dataset);
-  if (const auto mismatch = sensor_mismatch(scan, sensor)) throw InputError(*mismatch);
-  return sensor;
-}
-
 std::optional<std::size_t> expected_scans(const ScanSource& source, const Options& options) {
   const std::optional<std::size_t> size = source.size();
   if (!size) return options.count;
@@ -149,9 +132,11 @@ void run(const Options& options, int& exit_code) {
     exit_code = 1;
     return;
   }
-  if (scans.empty()) throw InputError(options.input + ": no scan could be read; nothing was written");
+  if (scans.empty())
+    throw InputError(options.input + ": no scan could be read; nothing was written");
   const DatasetFacts& dataset = input.source().facts();
-  const SensorModel sensor = choose_sensor(scans.back(), dataset, common.sensor);
+  const SensorModel sensor = choose_sensor(common.sensor, scans.back(), dataset);
+  if (const auto mismatch = sensor_mismatch(scans.back(), sensor)) throw InputError(*mismatch);
   facts.sensor = sensor.name;
   if (!options.quiet) {
     spdlog::info("sensor {}, method {}", sensor.name, common.method);
@@ -188,17 +173,14 @@ void run(const Options& options, int& exit_code) {
 void add_run(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("run", "Run the SLAM on the scans of INPUT");
   auto options = std::make_shared<Options>();
-  command->add_option("INPUT", options->input,
-                      "KITTI sequence folder, folder of .bin, .pcd or .ply scans, ROS bag, Velodyne "
-                      ".pcap, or - for a scan stream on standard input")
-      ->required();
-  command->add_option("--topic", options->topic, "topic of a bag, when several hold PointCloud2");
+  add_input_options(*command, *options, "INPUT",
+                    "KITTI sequence folder, folder of .bin, .pcd or .ply scans, ROS bag, Velodyne "
+                    ".pcap, or - for a scan stream on standard input");
   command->add_option("-o,--output", options->output, "folder for the results, new or empty");
   add_common_options(*command, options->common);
   command->add_option("--threads", options->threads, "bound on all threads")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  command->add_option("--first", options->first, "number of the first scan to use, from 0");
   command->add_option("--count", options->count, "number of scans to use");
   command->add_option("--truth", options->truth, "true trajectory, TUM or KITTI: adds the errors")
       ->check(CLI::ExistingFile);

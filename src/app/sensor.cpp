@@ -11,40 +11,34 @@
 #include <vector>
 
 #include "app/commands.hpp"
-#include "app/external_command.hpp"
+#include "app/scan_input.hpp"
 #include "app/scan_prefetcher.hpp"
 #include "io/atomic_file.hpp"
 #include "io/error.hpp"
 #include "io/learn_sensor.hpp"
-#include "io/scan_source.hpp"
 #include "io/sensor_yaml.hpp"
 
 namespace lego_loam_sc {
 namespace {
 
-struct Options {
-  std::string input;
-  std::optional<std::string> topic;
+struct Options : InputOptions {
   std::optional<std::filesystem::path> output;
-  std::size_t first = 0;
   std::size_t count = 50;
 };
 
 std::vector<Scan> read_scans(const Options& options) {
-  std::optional<RecordingReader> reader;
-  if (is_recording(options.input)) reader.emplace(options.input, options.topic, false);
-  const std::unique_ptr<ScanSource> source = open_scans(reader ? "-" : options.input);
+  ScanInput input(options, false);
   std::vector<Scan> scans;
   for (std::size_t k = 0; k < options.first + options.count; ++k) {
-    std::optional<ScanOrFault> item = read_next(*source);
+    std::optional<ScanOrFault> item = read_next(input.source());
     if (!item) break;
     if (const auto* fault = std::get_if<std::string>(&*item))
       spdlog::error("{}", *fault);
     else if (k >= options.first)
       scans.push_back(std::move(std::get<Scan>(*item)));
   }
-  for (const std::string& note : source->notes()) spdlog::info("{}", note);
-  if (reader) reader->wait();
+  for (const std::string& note : input.source().notes()) spdlog::info("{}", note);
+  input.wait_for_reader();
   if (scans.empty()) throw InputError(options.input + ": no scan could be read");
   return scans;
 }
@@ -72,10 +66,8 @@ void add_sensor(CLI::App& app) {
   auto* command = app.add_subcommand(
       "sensor", "Learn the sensor that made some scans and print it as a file for --sensor");
   auto options = std::make_shared<Options>();
-  command->add_option("SCANS", options->input, "What run takes")->required();
-  command->add_option("--topic", options->topic, "topic of a bag, when several hold PointCloud2");
+  add_input_options(*command, *options, "SCANS", "anything that run takes");
   command->add_option("-o,--output", options->output, "file to write instead of printing");
-  command->add_option("--first", options->first, "number of the first scan to use, from 0");
   command->add_option("--count", options->count, "number of scans to use")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
