@@ -90,7 +90,7 @@ bool make_report(const std::string& folder, bool quiet) {
                      " is complete but for the report: it is made by the companion package, and "
                      "lego-loam-sc-report does not start (" +
                      std::strerror(error) +
-                     "); install it with scripts/setup, or with pip install ./python, and call "
+                     "); install it with scripts/setup, or with pip install . in the repository, and call "
                      "lego-loam-sc report " +
                      folder);
   return wait_for(process) == 0;
