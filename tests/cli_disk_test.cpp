@@ -14,15 +14,7 @@ namespace fs = std::filesystem;
 
 // The folder of results is in trouble: one sentence, exit code 1, and what is there is whole.
 
-const std::string kSimulate = "$P simulate parking --count 6 --sensor rs16 -o scans";
-
-void expect_one_sentence(const Outcome& outcome, std::initializer_list<std::string_view> words) {
-  EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_EQ(outcome.out, "");
-  EXPECT_EQ(split(outcome.err, '\n').size(), 1U) << outcome.err;
-  for (const std::string_view word : words)
-    EXPECT_NE(outcome.err.find(word), outcome.err.npos) << word << " in " << outcome.err;
-}
+const std::string kSimulate = simulate_line(6);
 
 void expect_whole_tables(const fs::path& result) {
   const auto rows = read_csv(result / "scans.csv");

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
-#include <sstream>
 #include <string>
 #include <tuple>
 #include <type_traits>
@@ -15,8 +14,10 @@
 
 #include "cli_program.hpp"
 #include "core/settings.hpp"
+#include "core/status.hpp"
 #include "io/settings_yaml.hpp"
 #include "io/text.hpp"
+#include "loop/loop_verifier.hpp"
 
 namespace lego_loam_sc {
 namespace {
@@ -137,6 +138,26 @@ TEST(Documents, ListTheFieldsOfTheSummaryAndOfTheErrors) {
   EXPECT_EQ(first_cells("docs/output.md", "Errors against truth"), names);
 }
 
+// The names of an enumeration whose values go from 0 on.
+template <class Enumeration>
+std::vector<std::string> names_of() {
+  std::vector<std::string> names;
+  for (int k = 0; names.empty() || names.back() != "unknown"; ++k)
+    names.emplace_back(to_string(static_cast<Enumeration>(k)));
+  names.pop_back();
+  return names;
+}
+
+TEST(Documents, ListEveryStatusOfAScanAndEveryVerdictOnALoop) {
+  const auto sorted = [](std::vector<std::string> names) {
+    std::ranges::sort(names);
+    return names;
+  };
+  EXPECT_EQ(sorted(first_cells("docs/output.md", "Status of a scan")), sorted(names_of<Status>()));
+  EXPECT_EQ(sorted(first_cells("docs/output.md", "Verdict on a loop")),
+            sorted(names_of<Verdict>()));
+}
+
 // All text of the files in a folder whose names end in `ending`.
 std::string text_of_files(const fs::path& folder, const std::string& ending) {
   std::string text;
@@ -159,54 +180,6 @@ TEST(Documents, NameTestsThatExist) {
     EXPECT_TRUE(exists) << match->str();
   }
   EXPECT_GT(found, 30);
-}
-
-// Lines of shell blocks of a document, joined where they end in a backslash.
-std::vector<std::string> shell_lines(const fs::path& document) {
-  std::vector<std::string> commands;
-  bool inside = false;
-  std::string joined;
-  for (const std::string& line : lines_of(document)) {
-    if (line.starts_with("```")) {
-      inside = !inside && line == "```sh";
-    } else if (inside && line.ends_with('\\')) {
-      joined += line.substr(0, line.size() - 1);
-    } else if (inside) {
-      commands.push_back(joined + line.substr(0, line.find(" #")));
-      joined.clear();
-    }
-  }
-  return commands;
-}
-
-TEST(Documents, ShowCommandLinesWithVerbsAndOptionsThatExist) {
-  const Shell shell;
-  std::vector<fs::path> documents = {kSource / "README.md"};
-  for (const auto& entry : fs::directory_iterator(kSource / "docs"))
-    if (entry.path().extension() == ".md") documents.push_back(entry.path());
-  int seen = 0;
-  for (const fs::path& document : documents) {
-    for (const std::string& line : shell_lines(document)) {
-      for (const std::string& command : split(line, '|')) {
-        std::istringstream words(command);
-        std::string program, verb;
-        words >> program >> verb;
-        if (program != "lego-loam-sc" || verb.starts_with("-")) continue;
-        // The companion package's; without it setup has said why.
-        if (verb == "report" && !fs::exists(kSource / "python/.venv/installed")) continue;
-        ++seen;
-        const Outcome help = shell("$P " + verb + " --help");
-        EXPECT_EQ(help.exit_code, 0) << document << ": " << command;
-        std::string known = " " + help.out;
-        std::ranges::replace(known, ',', ' ');  // between the names of one option
-        for (std::string word; words >> word;)
-          EXPECT_TRUE(!word.starts_with("-") || word == "-" ||
-                      known.find(" " + word + " ") != known.npos)
-              << document << ": " << command;
-      }
-    }
-  }
-  EXPECT_GT(seen, 10);
 }
 
 }  // namespace

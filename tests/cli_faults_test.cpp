@@ -13,17 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string kSimulate = "$P simulate parking --count 6 --sensor rs16 -o scans";
-
-// One line that holds all of `words`, on standard error alone, and exit code 1.
-void expect_one_sentence(const Outcome& outcome, std::initializer_list<std::string_view> words) {
-  EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_EQ(outcome.out, "");
-  EXPECT_EQ(split(outcome.err, '\n').size(), 1U) << outcome.err;
-  EXPECT_TRUE(outcome.err.starts_with("lego-loam-sc: ")) << outcome.err;
-  for (const std::string_view word : words)
-    EXPECT_NE(outcome.err.find(word), outcome.err.npos) << word << " in " << outcome.err;
-}
+const std::string kSimulate = simulate_line(6);
 
 void expect_no_leftovers(const fs::path& folder) {
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))

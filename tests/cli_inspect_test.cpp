@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kSimulate = "$P simulate parking --count 3 --sensor rs16 -o scans";
+const std::string kSimulate = simulate_line(3);
 
 std::set<std::string> names_in(const fs::path& folder) {
   std::set<std::string> names;

@@ -6,9 +6,11 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
 #include <iterator>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "io_test_files.hpp"
@@ -69,6 +71,23 @@ class Shell {
  private:
   TemporaryFolder files_;
 };
+
+/// That the command failed with one line on standard error, which holds all of `words`, and nothing
+/// else.
+inline void expect_one_sentence(const Outcome& outcome,
+                                std::initializer_list<std::string_view> words) {
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(split(outcome.err, '\n').size(), 1U) << outcome.err;
+  EXPECT_TRUE(outcome.err.starts_with("lego-loam-sc: ")) << outcome.err;
+  for (const std::string_view word : words)
+    EXPECT_NE(outcome.err.find(word), outcome.err.npos) << word << " in " << outcome.err;
+}
+
+/// The line that makes `count` scans of a drive through a car park in the folder `scans`.
+inline std::string simulate_line(int count) {
+  return "$P simulate parking --count " + std::to_string(count) + " --sensor rs16 -o scans";
+}
 
 /// Rows of a CSV file, the header first.
 inline std::vector<std::vector<std::string>> read_csv(const std::filesystem::path& path) {

@@ -23,9 +23,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string kSimulate = "$P simulate parking --count 12 --sensor rs16 -o scans";
+const std::string kSimulate = simulate_line(12);
 // Far enough for several key frames; visits of the same aisle count as loops.
-const std::string kLongSimulate = "$P simulate parking --count 60 --sensor rs16 -o scans";
+const std::string kLongSimulate = simulate_line(60);
 const std::string kLoopyRun = "$P run scans --set loop.min_travel=2 --set loop.spacing=0.5";
 
 std::set<std::string> names_in(const fs::path& folder) {
