@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs the program within the tests and takes its output apart."""
+"""The programs under test, and what takes their output apart."""
 
 import io
+import os
 import struct
 import sys
 from dataclasses import dataclass, field
@@ -11,6 +12,23 @@ import numpy as np
 import pytest
 
 from lego_loam_sc import read as program
+
+ROOT = Path(__file__).parents[2]
+PROGRAM = Path(os.environ.get("LEGO_LOAM_SC_PROGRAM", ROOT / "build/release/lego-loam-sc"))
+
+needs_program = pytest.mark.skipif(not PROGRAM.exists(), reason="lego-loam-sc is not built")
+
+
+@pytest.fixture(scope="session")
+def environment(tmp_path_factory):
+    """A PATH with lego-loam-sc and the commands of the package under test."""
+    folder = tmp_path_factory.mktemp("bin")
+    for command, module in (("read", "read"), ("report", "report.main")):
+        script = folder / f"lego-loam-sc-{command}"
+        script.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m lego_loam_sc.{module} "$@"\n')
+        script.chmod(0o755)
+    (folder / PROGRAM.name).symlink_to(PROGRAM)
+    return {**os.environ, "PATH": f"{folder}:{os.environ['PATH']}"}
 
 
 @dataclass

@@ -162,6 +162,29 @@ def write_sweeps(folder: Path, kind: str, count: int, points: int = 200) -> Path
     )
 
 
+def write_scans(folder: Path, kind: str, topic: str, scans: Iterable[Any]) -> Path:
+    """A bag of scans of a stream, with the fields that they have."""
+    make = Messages(kind.startswith("ros1"))
+
+    def messages():
+        for scan in scans:
+            optional = {
+                "intensity": ("<f4", scan.intensity),
+                "ring": ("<u2", scan.ring),
+                "t": ("<i4", scan.offset_ns),
+            }
+            optional = {name: field for name, field in optional.items() if field[1] is not None}
+            kinds = [(name, "<f4") for name in "xyz"]
+            kinds += [(name, kind) for name, (kind, _) in optional.items()]
+            cloud = np.zeros(len(scan.points), kinds)
+            cloud["x"], cloud["y"], cloud["z"] = scan.points.T
+            for name, (_, values) in optional.items():
+                cloud[name] = values
+            yield topic, scan.stamp_ns, make.cloud(scan.stamp_ns, cloud)
+
+    return write_bag(folder, kind, messages())
+
+
 def storage_file(bag: Path) -> Path:
     """The file that holds the messages of a bag."""
     return next(bag.glob(f"{bag.name}.*")) if bag.is_dir() else bag

@@ -10,11 +10,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from conftest import PROGRAM, ROOT
 
 import lego_loam_sc as sc
 
-ROOT = Path(__file__).parents[2]
-PROGRAM = Path(os.environ.get("LEGO_LOAM_SC_PROGRAM", ROOT / "build/release/lego-loam-sc"))
 CORE = importlib.util.find_spec("lego_loam_sc._core")
 
 pytestmark = pytest.mark.skipif(CORE is None, reason="the bindings are not built")

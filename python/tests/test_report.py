@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`lego-loam-sc report`: the page itself, and what it does in headless Chromium."""
 
-import os
 import re
 import shutil
 import subprocess
@@ -10,13 +9,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from conftest import PROGRAM, needs_program
 
 from lego_loam_sc.report import geometry
 from lego_loam_sc.report.main import main
 from lego_loam_sc.report.results import read_results
 
-ROOT = Path(__file__).parents[2]
-PROGRAM = Path(os.environ.get("LEGO_LOAM_SC_PROGRAM", ROOT / "build/release/lego-loam-sc"))
 CHROMIUM = shutil.which("chromium")
 # Software WebGL, and nothing that asks the network.
 FLAGS = (
@@ -30,17 +28,7 @@ LOOPY = [
     *("--set", "key_frames.distance=1"),
 ]
 
-pytestmark = pytest.mark.skipif(not PROGRAM.exists(), reason="lego-loam-sc is not built")
-
-
-@pytest.fixture(scope="module")
-def environment(tmp_path_factory):
-    """A PATH with lego-loam-sc-report from the package under test."""
-    folder = tmp_path_factory.mktemp("bin")
-    script = folder / "lego-loam-sc-report"
-    script.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m lego_loam_sc.report.main "$@"\n')
-    script.chmod(0o755)
-    return {**os.environ, "PATH": f"{folder}:{os.environ['PATH']}"}
+pytestmark = needs_program
 
 
 @pytest.fixture(scope="module")

@@ -4,30 +4,15 @@
 import os
 import signal
 import subprocess
-import sys
 import time
-from pathlib import Path
 
-import numpy as np
 import pytest
-from conftest import parse_stream
-from made_bags import Messages, copy_bag, write_bag
+from conftest import PROGRAM, needs_program, parse_stream
+from made_bags import copy_bag, write_scans
 
-ROOT = Path(__file__).parents[2]
-PROGRAM = Path(os.environ.get("LEGO_LOAM_SC_PROGRAM", ROOT / "build/release/lego-loam-sc"))
 SCANS = 12
 
-pytestmark = pytest.mark.skipif(not PROGRAM.exists(), reason="lego-loam-sc is not built")
-
-
-@pytest.fixture(scope="module")
-def environment(tmp_path_factory):
-    """A PATH with lego-loam-sc-read from the package under test."""
-    folder = tmp_path_factory.mktemp("bin")
-    script = folder / "lego-loam-sc-read"
-    script.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m lego_loam_sc.read "$@"\n')
-    script.chmod(0o755)
-    return {**os.environ, "PATH": f"{folder}:{os.environ['PATH']}"}
+pytestmark = needs_program
 
 
 @pytest.fixture(scope="module")
@@ -39,24 +24,7 @@ def simulated(tmp_path_factory):
     (folder / "drive.scans").write_bytes(stream)
     facts, scans = parse_stream(stream)
     (folder / "dataset.yaml").write_text(facts)
-    make = Messages(True)
-    fields = [("x", "<f4"), ("y", "<f4"), ("z", "<f4"), ("intensity", "<f4")]
-
-    def messages():
-        for scan in scans:
-            kinds = [*fields, *([] if scan.ring is None else [("ring", "<u2")])]
-            cloud = np.zeros(len(scan.points), [*kinds, ("t", "<i4")])
-            cloud["x"], cloud["y"], cloud["z"] = scan.points.T
-            for name, values in (
-                ("intensity", scan.intensity),
-                ("ring", scan.ring),
-                ("t", scan.offset_ns),
-            ):
-                if values is not None:
-                    cloud[name] = values
-            yield "/points", scan.stamp_ns, make.cloud(scan.stamp_ns, cloud)
-
-    return folder, write_bag(folder, "ros1", messages())
+    return folder, write_scans(folder, "ros1", "/points", scans)
 
 
 def run(environment, *words):

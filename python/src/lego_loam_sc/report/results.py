@@ -116,7 +116,12 @@ def _read_rows(path: Path) -> list[dict[str, str]]:
     return [row for row in rows if None not in row and None not in row.values()]
 
 
-_WORDS = ("status", "warnings", "errors", "delay_level")  # columns of scans.csv, the rest are numbers
+_WORDS = (
+    "status",
+    "warnings",
+    "errors",
+    "delay_level",
+)  # columns of scans.csv, the rest are numbers
 
 
 def _read_scans(path: Path) -> dict[str, np.ndarray]:
