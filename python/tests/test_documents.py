@@ -23,7 +23,7 @@ ELSEWHERE = {
     r"scripts/build\b|cmake --preset release &&": "scripts/test does",
     r"cmake --preset release -D|build/release/bench|scripts/bench": "compiles for minutes",
     r"bench/paper/run": "takes hours",
-    r"pip install": "scripts/setup installs the readers, scripts/bindings the rest, over what is built",
+    r"pip install": "scripts/setup does for the readers, scripts/bindings for the rest",
     r"pipx run": "downloads its tools",
 }
 # What the reader of a page has, for its Python.
