@@ -12,8 +12,9 @@ namespace lego_loam_sc::python {
 
 namespace nb = nanobind;
 
-// Arguments: any array of numbers on the CPU. Another type of number is converted first; an array
-// with gaps, such as a slice of columns, is read as it lies.
+// Arguments: any array of numbers on the CPU. Another type of number is converted first, which
+// their functions say with nb::sig; an array with gaps, such as a slice of columns, is read as it
+// lies.
 using Points = nb::ndarray<const float, nb::shape<-1, 3>, nb::device::cpu>;
 template <class Number>
 using Numbers = nb::ndarray<const Number, nb::shape<-1>, nb::device::cpu>;

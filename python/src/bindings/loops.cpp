@@ -28,6 +28,8 @@ void bind_scan_context(nb::module_& module) {
             new (context)
                 ScanContext(make_scan_context(to_points(points), sensor_height, settings));
           },
+          nb::sig("def __init__(self, points: numpy.typing.NDArray[numpy.number], "
+                  "sensor_height: float = 0.0, settings: ScanContextSettings = ...) -> None"),
           "points"_a, "sensor_height"_a = 0.0, "settings"_a = ScanContextSettings{})
       .def_ro("rings", &ScanContext::rings)
       .def_ro("sectors", &ScanContext::sectors)

@@ -102,6 +102,11 @@ void bind_scans(nb::module_& module) {
              const std::optional<Numbers<float>>& intensity) {
             new (scan) Scan(make_scan(points, stamp, offsets, rings, intensity));
           },
+          nb::sig("def __init__(self, points: numpy.typing.NDArray[numpy.number], *, stamp: float "
+                  "= 0.0, "
+                  "offsets: numpy.typing.NDArray[numpy.number] | None = None, "
+                  "rings: numpy.typing.NDArray[numpy.number] | None = None, "
+                  "intensity: numpy.typing.NDArray[numpy.number] | None = None) -> None"),
           "points"_a, nb::kw_only(), "stamp"_a = 0.0, "offsets"_a = nb::none(),
           "rings"_a = nb::none(), "intensity"_a = nb::none())
       .def("__len__", &Scan::size)

@@ -156,6 +156,10 @@ void bind_slam(nb::module_& module) {
              const std::optional<Numbers<float>>& intensity) {
             return process(slam, make_scan(points, stamp, offsets, rings, intensity));
           },
+          nb::sig("def process(self, points: numpy.typing.NDArray[numpy.number], *, stamp: float, "
+                  "offsets: numpy.typing.NDArray[numpy.number] | None = None, "
+                  "rings: numpy.typing.NDArray[numpy.number] | None = None, "
+                  "intensity: numpy.typing.NDArray[numpy.number] | None = None) -> ScanReport"),
           "points"_a, nb::kw_only(), "stamp"_a, "offsets"_a = nb::none(), "rings"_a = nb::none(),
           "intensity"_a = nb::none(), "The same from arrays, as Scan takes them.")
       .def(
@@ -179,8 +183,7 @@ void bind_slam(nb::module_& module) {
           [](const Slam& slam, double voxel_size) {
             if (!(voxel_size > 0.0)) throw std::invalid_argument("voxel_size must be above 0 m");
             std::vector<Eigen::Vector4f> points;
-            for (const MapPoint& p :
-                 make_map(slam.key_frames(), slam.graph().poses(), voxel_size))
+            for (const MapPoint& p : make_map(slam.key_frames(), slam.graph().poses(), voxel_size))
               points.emplace_back(p.position.x(), p.position.y(), p.position.z(), p.intensity);
             return to_numpy<float, 4>(std::move(points));
           },
