@@ -149,6 +149,33 @@ def test_every_command_of_a_page_works(page, desk, environment):
             execute(command, desk, environment)
 
 
+def anchors_of(page: Path) -> set[str]:
+    """As GitHub makes them of the headings."""
+    headings = re.findall(r"^#+ (.*)$", page.read_text(), re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+@pytest.mark.parametrize("page", [*PAGES, "python/README.md"])
+def test_the_links_of_a_page_lead_somewhere(page):
+    for target in re.findall(r"\]\((?!https?:)([^)\s]+)\)", (ROOT / page).read_text()):
+        path, _, anchor = target.partition("#")
+        found = (ROOT / page).parent / path if path else ROOT / page
+        assert found.exists(), target
+        assert not anchor or anchor in anchors_of(found), target
+
+
+def test_settings_that_a_page_names_exist():
+    known = set(
+        re.findall(r"^\| `(\w+\.[\w.]+)` \|", (ROOT / "docs/settings.md").read_text(), re.M)
+    )
+    groups = {name.rsplit(".", 1)[0] for name in known}
+    of_a_group = re.compile(rf"`((?:{'|'.join(groups)})\.[a-z_.]+)`")
+    for page in PAGES:
+        for name in of_a_group.findall((ROOT / page).read_text()):
+            is_file = name.endswith((".md", ".cpp", ".hpp", ".tum", ".g2o"))
+            assert is_file or name in known | groups, (page, name)
+
+
 def test_what_is_executed_elsewhere_is_on_a_page():
     commands = [command for page in PAGES for command in commands_of(page)]
     for pattern in ELSEWHERE:
