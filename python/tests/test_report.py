@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`lego-loam-sc report`: the page itself, and what it does in headless Chromium."""
 
+import json
 import re
 import shutil
 import subprocess
@@ -68,6 +69,10 @@ def test_the_page_tells_the_run_its_errors_and_its_settings(run):
         assert text in page
     assert "min_travel: 2 " in page  # of settings.yaml
     assert "rs16, " in page
+    health = json.loads((run / "summary.json").read_text())["health"]
+    assert health["inliers"]["warnings"] > 0
+    assert f"inliers: {health['inliers']['warnings']} warnings, " in page
+    assert "error at the end, z (m)" in page
 
 
 def test_the_same_run_gives_the_same_page(run, tmp_path):

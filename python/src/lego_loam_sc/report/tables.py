@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The numbers of a run as tables of HTML."""
 
+from collections import Counter
 from html import escape
 
 import numpy as np
@@ -34,6 +35,7 @@ def _summary_rows(results: Results, duration: float) -> list[tuple[str, str]]:
     timing = summary["timing"]
     height = summary["sensor_height_m"]
     rows = [
+        ("health", _health({**summary["health"], "delay": timing["delay"]})),
         ("input", str(summary["input"])),
         ("method", f"{summary['method']}, lego-loam-sc {summary['version']}"),
         ("sensor", summary["sensor"] + (f", {height:.2f} m above the ground" if height else "")),
@@ -57,10 +59,19 @@ def _summary_rows(results: Results, duration: float) -> list[tuple[str, str]]:
 
 
 def _statuses(status: np.ndarray) -> str:
-    names, counts = np.unique(status, return_counts=True)
-    if list(names) == ["ok"]:
+    counts = Counter(map(str, status)).most_common()
+    if [name for name, _ in counts] == ["ok"]:
         return "all ok"
-    return ", ".join(f"{count} {name}" for name, count in zip(names, counts, strict=True))
+    return ", ".join(f"{count} {name}" for name, count in counts)
+
+
+def _health(vitals: dict[str, dict]) -> str:
+    """How many scans were at a warning or an error level, for the values that reached one."""
+    parts = []
+    for name, vital in vitals.items():
+        if vital["warnings"] + vital["errors"] > 0:
+            parts.append(f"{name}: {vital['warnings']} warnings, {vital['errors']} errors")
+    return "; ".join(parts) or "no value reached a warning level"
 
 
 _ERRORS = (
@@ -73,6 +84,9 @@ _ERRORS = (
     ("RPE over one metre, rotation, RMSE", "°", ("rpe_metre", "rotation_deg", "rmse"), 4),
     ("KITTI <i>t</i><sub>rel</sub>", "%", ("kitti", "t_rel_percent"), 3),
     ("KITTI <i>r</i><sub>rel</sub>", "°/100 m", ("kitti", "r_rel_deg_per_100m"), 3),
+    ("error at the end, x", "m", ("end", "x_m"), 4),
+    ("error at the end, y", "m", ("end", "y_m"), 4),
+    ("error at the end, z", "m", ("end", "z_m"), 4),
     ("error at the end, rotation", "°", ("end", "rotation_deg"), 3),
     ("path length", "m", ("estimate_length_m",), 2),
 )
