@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Virtual environments below build/, each made when it is needed and when its list has changed."""
 
 import os

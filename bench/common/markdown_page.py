@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Tables and prose of the documents that the scripts of bench/ write."""
 
 import math

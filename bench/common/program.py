@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The program under test, called as a user calls it."""
 
 import hashlib

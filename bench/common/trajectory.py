@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Trajectories as arrays: reading, interpolation, alignment, errors of the last pose."""
 
 import dataclasses

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Does `lego-loam-sc evaluate` say what evo says?"""
 
 import math

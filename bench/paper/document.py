@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Fills document_text.md and writes it as docs/paper.md."""
 
 import pathlib

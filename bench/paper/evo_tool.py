@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """evo, run as a command; it is under the GPL, so it is never imported."""
 
 import json

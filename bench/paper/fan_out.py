@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """One process writes, several read the same bytes: tee, for streams that are too big for a disk."""
 
 import fcntl

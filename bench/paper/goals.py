@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What must come out of the experiments, and what did."""
 
 import math

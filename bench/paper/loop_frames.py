@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Figure 10: the two clouds of a loop, before and after it."""
 
 import numpy as np

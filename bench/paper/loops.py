@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Are the loops true, and were the true revisits found?
 
 A revisit is a key frame within RADIUS of an earlier one, which was passed at least SECONDS and

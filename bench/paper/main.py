@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Repeats the paper's experiments and writes docs/paper.md and docs/figures.
 
 Runs that are in the work folder already, made by the same program with the same arguments, are not

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Maps from above: figures 5, 6, 11, 12 and 13."""
 
 import dataclasses

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The runs in the work folder and what they come to, worked out when it is first asked for."""
 
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Trajectories over truth, figures 7 and 14, and the error by axis along the way."""
 
 import numpy as np

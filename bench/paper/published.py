@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What the paper's tables 1 to 4 say, by method."""
 
 LENGTH = 3724.187  # m, of KITTI 00

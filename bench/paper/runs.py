@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Makes the runs of an experiment, unless they are in the work folder already."""
 
 import json

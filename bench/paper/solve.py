@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The two-step solve against the joint one: how much time does it save?"""
 
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Figure 9: what the front end makes of one scan of the RS-LiDAR-16."""
 
 import pathlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Tables 1 to 4 as the paper prints them, its figures first, then ours; all in Markdown."""
 
 import math

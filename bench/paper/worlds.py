@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What is run: the recordings, made or real, and the methods on each of them."""
 
 import dataclasses

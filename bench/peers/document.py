@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Fills document_text.md and writes it as docs/peers.md."""
 
 import pathlib

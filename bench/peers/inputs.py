@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The recordings, made or real, that all systems run on."""
 
 import dataclasses

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Runs LeGO-LOAM-SC and its peers on the same scans and writes docs/peers.md.
 
 Runs that are there already are not repeated, unless the program, the settings or the scans have

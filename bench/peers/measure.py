@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """One process, alone: CPU time, wall time and memory as the kernel counts them."""
 
 import dataclasses

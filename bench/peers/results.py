@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The figures of the runs in the store, by input, system and number of threads."""
 
 import math

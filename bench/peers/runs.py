@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Runs what is missing and keeps what came out, one small folder for each run."""
 
 import dataclasses

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Run with: build/peers/venv/bin/python -m unittest discover bench/peers -p '*_test.py'"""
 
 import pathlib

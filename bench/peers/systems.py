@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The peers, each with its version, its settings and where they come from."""
 
 import dataclasses

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """One peer over one recording, in its own virtual environment: drive.py PEER INPUT OUTPUT OPTIONS.
 
 OUTPUT is a folder; it gets trajectory.tum and process.json: the CPU seconds before the first scan

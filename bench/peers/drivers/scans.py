@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Scans as the peers' own dataset classes hand them out: points and times in double precision."""
 
 import dataclasses

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """KISS-ICP."""
 
 import numpy as np

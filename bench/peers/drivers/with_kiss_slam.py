@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """KISS-SLAM."""
 
 from kiss_slam.config import KissSLAMConfig

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """small_gicp as odometry from scan to scan, as in its own benchmark, with a constant velocity."""
 
 import numpy as np
