@@ -132,11 +132,10 @@ TEST(Faults, OfTheTruthAreFoundBeforeTheRunOrCostNoResults) {
 
 TEST(Faults, OfUsageExitWithTwoAndSayWhereHelpIs) {
   const Shell shell;
-  for (const char* line :
-       {"$P", "$P run", "$P run a b", "$P run a --bogus", "$P run a --threads 0",
-        "$P run a --count -1", "$P run a --truth nowhere", "$P simulate parking",
-        "$P simulate parking -o - --distort perhaps", "$P match a", "$P evaluate a",
-        "$P no-such-verb"}) {
+  for (const char* line : {"$P", "$P run", "$P run a b", "$P run a --bogus", "$P run a --threads 0",
+                           "$P run a --count -1", "$P run a --truth nowhere", "$P simulate parking",
+                           "$P simulate parking -o - --distort perhaps", "$P match a",
+                           "$P evaluate a", "$P no-such-verb"}) {
     const Outcome outcome = shell(line);
     EXPECT_EQ(outcome.exit_code, 2) << line;
     EXPECT_EQ(outcome.out, "") << line;

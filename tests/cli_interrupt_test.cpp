@@ -27,8 +27,8 @@ class StalledRun {
       dup2(ends[0], STDIN_FILENO);
       close(ends[0]);
       close(ends[1]);
-      execl(LEGO_LOAM_SC_PROGRAM, LEGO_LOAM_SC_PROGRAM, "run", "-", "--quiet", "-o",
-            folder.c_str(), "--threads", threads.c_str(), nullptr);
+      execl(LEGO_LOAM_SC_PROGRAM, LEGO_LOAM_SC_PROGRAM, "run", "-", "--quiet", "-o", folder.c_str(),
+            "--threads", threads.c_str(), nullptr);
       _exit(127);
     }
     close(ends[0]);

@@ -174,9 +174,9 @@ TEST(Features, AscendInRowAndColumn) {
   }
 }
 
-// Were points taken for their noise, as by a greedy walk that takes the first one far enough from the
-// last, those of a wall would be too near where the scan approaches it and too far where it leaves: all
-// walls turned alike, and a map of them turns a little more with every scan.
+// Were points taken for their noise, as by a greedy walk that takes the first one far enough from
+// the last, those of a wall would be too near where the scan approaches it and too far where it
+// leaves: all walls turned alike, and a map of them turns a little more with every scan.
 TEST(Features, NoiseDoesNotTurnTheWallsThroughTheChoiceOfPoints) {
   Scene walls;
   walls.plane({0, 0, 0}, {0, 0, 1}).plane({0, 8, 0}, {0, 1, 0}).plane({0, -8, 0}, {0, 1, 0});

@@ -113,8 +113,7 @@ void add_front_end(const std::string& folder, const Fixture& f) {
 }
 
 void add_matching(const Fixture& f) {
-  const auto odometry =
-      std::make_shared<Odometry>(f.settings.odometry, f.sensor.range_noise);
+  const auto odometry = std::make_shared<Odometry>(f.settings.odometry, f.sensor.range_noise);
   add("odometry_index", [&f, odometry] {
     odometry->set_previous(f.before().features);
     return odometry->has_previous();

@@ -10,8 +10,9 @@ namespace lego_loam_sc {
 
 void add_common_options(CLI::App& command, CommonOptions& options) {
   command.add_option("--sensor", options.sensor, "sensor preset or YAML file");
-  command.add_option("--method", options.method,
-                     "settings preset: lego-loam-sc, lego-loam-sc-paper, lego-loam, loam")
+  command
+      .add_option("--method", options.method,
+                  "settings preset: lego-loam-sc, lego-loam-sc-paper, lego-loam, loam")
       ->capture_default_str();
   command.add_option("--config", options.config, "YAML file with settings");
   command.add_option("--set", options.assignments, "one setting, key=value; may be repeated")

@@ -16,8 +16,9 @@ void add_config(CLI::App& app) {
   add_common_options(*command, *options);
   command->callback([options] {
     std::cout << to_yaml(load_settings(options->method, options->config, options->assignments));
-    if (options->sensor) std::cout << "\n# sensor " << *options->sensor << "\n"
-                                   << to_yaml(load_sensor(*options->sensor));
+    if (options->sensor)
+      std::cout << "\n# sensor " << *options->sensor << "\n"
+                << to_yaml(load_sensor(*options->sensor));
   });
 }
 

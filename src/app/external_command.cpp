@@ -86,13 +86,14 @@ bool make_report(const std::string& folder, bool quiet) {
   const int error =
       posix_spawnp(&process, words.front().c_str(), nullptr, nullptr, arguments.data(), environ);
   if (error != 0)
-    throw InputError(folder +
-                     " is complete but for the report: it is made by the companion package, and "
-                     "lego-loam-sc-report does not start (" +
-                     std::strerror(error) +
-                     "); install it with scripts/setup, or with pip install . in the repository, and call "
-                     "lego-loam-sc report " +
-                     folder);
+    throw InputError(
+        folder +
+        " is complete but for the report: it is made by the companion package, and "
+        "lego-loam-sc-report does not start (" +
+        std::strerror(error) +
+        "); install it with scripts/setup, or with pip install . in the repository, and call "
+        "lego-loam-sc report " +
+        folder);
   return wait_for(process) == 0;
 }
 

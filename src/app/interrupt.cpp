@@ -34,7 +34,9 @@ void catch_interrupts() {
   handle(SIGTERM, ask_to_end);
 }
 
-bool interrupted() { return asked_to_end != 0; }
+bool interrupted() {
+  return asked_to_end != 0;
+}
 
 void end_read(std::thread& thread) {
   handle(SIGUSR1, do_nothing);

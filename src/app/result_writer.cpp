@@ -189,8 +189,8 @@ ResultWriter::ResultWriter(std::filesystem::path folder, const SensorModel& sens
 void ResultWriter::add(const ScanReport& report) {
   scans_.append(scan_line(report, health_.add(report)));
   if (report.stamp_jump_s != 0.0 && stamp_jumps_++ == 0)
-    first_jump_ = ", the first at scan " + std::to_string(report.index) +
-                  " by " + to_fixed(report.stamp_jump_s, 1) + " s\n";
+    first_jump_ = ", the first at scan " + std::to_string(report.index) + " by " +
+                  to_fixed(report.stamp_jump_s, 1) + " s\n";
   if (report.status != Status::out_of_order)
     odometry_.append(tum_line({report.stamp_ns, report.T_odom_lidar}));
   for (const LoopReport& loop : report.loops) {

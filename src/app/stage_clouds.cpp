@@ -53,13 +53,10 @@ Colour of_roughness(const ScanStages& stages, std::size_t i, int) {
 Colour of_large_set(const ScanStages& stages, std::size_t i, int) {
   switch (stages.feature_set[i]) {
     case FeatureSet::edge_large:
-    case FeatureSet::edge_sharp:
-      return {0, 64, 255};
+    case FeatureSet::edge_sharp: return {0, 64, 255};
     case FeatureSet::planar_large:
-    case FeatureSet::planar_flat:
-      return {255, 140, 0};
-    case FeatureSet::none:
-      break;
+    case FeatureSet::planar_flat: return {255, 140, 0};
+    case FeatureSet::none: break;
   }
   return kBehind;
 }

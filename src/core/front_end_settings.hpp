@@ -24,8 +24,9 @@ struct SegmentationSettings {
           "deg; steepest slope between two rows of the ground");
     visit("ground_max_elevation_deg", s.ground_max_elevation_deg, -90.0, 90.0,
           "deg; only beams below this elevation can see the ground");
-    visit("ground_height_tolerance", s.ground_height_tolerance, 0.0, 10.0,
-          "m; a ground point lies at most this far above or below the last one, plus 5 % of the way");
+    visit(
+        "ground_height_tolerance", s.ground_height_tolerance, 0.0, 10.0,
+        "m; a ground point lies at most this far above or below the last one, plus 5 % of the way");
     visit("ground_max_row_gap", s.ground_max_row_gap, 1, 16,
           "rows; how far apart two neighbours on the ground may be");
     visit("cluster_angle_deg", s.cluster_angle_deg, 1.0, 89.0,
@@ -73,7 +74,8 @@ struct FeatureSettings {
     visit("min_ground_flats", s.min_ground_flats, 0, 100000,
           "with fewer points of F_p on the ground, it is taken from everywhere after all");
     visit("min_edges", s.min_edges, 0, 100000,
-          "with fewer edges in a scan, all that stands on the ground is matched with the map; 0 = never");
+          "with fewer edges in a scan, all that stands on the ground is matched with the map; 0 = "
+          "never");
     visit("planar_spacing", s.planar_spacing, 0.0, 10.0,
           "m; distance along a row between points of the large planar set");
     visit("suppressed_neighbours", s.suppressed_neighbours, 0, 20,
@@ -146,7 +148,8 @@ struct MappingSettings {
   static void fields(Self& s, Visit&& visit) {
     visit("every", s.every, 1, 100, "scans; every n-th is matched against the map");
     visit("voxel_size", s.voxel_size, 0.05, 10.0,
-          "m; finest voxels of the map, used in small spaces; a surface is fitted to each block of 2 x 2 x 2");
+          "m; finest voxels of the map, used in small spaces; a surface is fitted to each block of "
+          "2 x 2 x 2");
     visit("levels", s.levels, 1, 4, "voxel sizes, each twice the one before");
     visit("radius", s.radius, 5.0, 1000.0, "m; the local map reaches this far round the sensor");
     visit("insert_distance", s.insert_distance, 0.0, 100.0,

@@ -56,7 +56,9 @@ Vector6 log_se3(const Pose& pose) {
   return twist;
 }
 
-double rotation_angle(const Pose& pose) { return log_so3(pose.linear()).norm(); }
+double rotation_angle(const Pose& pose) {
+  return log_so3(pose.linear()).norm();
+}
 
 Pose perturb(const Pose& pose, const Vector6& delta) {
   Pose result = Pose::Identity();

@@ -39,7 +39,11 @@ Eigen::Matrix3d rotation_from_rpy(double roll, double pitch, double yaw);
 /// roll, pitch, yaw of a rotation, rad; pitch in [-pi/2, pi/2].
 Eigen::Vector3d rpy_from_rotation(const Eigen::Matrix3d& rotation);
 
-constexpr double radians(double degrees) { return degrees * 3.14159265358979323846 / 180.0; }
-constexpr double degrees(double radians) { return radians * 180.0 / 3.14159265358979323846; }
+constexpr double radians(double degrees) {
+  return degrees * 3.14159265358979323846 / 180.0;
+}
+constexpr double degrees(double radians) {
+  return radians * 180.0 / 3.14159265358979323846;
+}
 
 }  // namespace lego_loam_sc

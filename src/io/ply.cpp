@@ -112,22 +112,14 @@ double load_number(const char* at, NumberType type, bool big_endian) {
     return static_cast<double>(big_endian ? load_big_endian<T>(at) : load<T>(at));
   };
   switch (type) {
-    case NumberType::int8:
-      return as(std::int8_t{});
-    case NumberType::uint8:
-      return as(std::uint8_t{});
-    case NumberType::int16:
-      return as(std::int16_t{});
-    case NumberType::uint16:
-      return as(std::uint16_t{});
-    case NumberType::int32:
-      return as(std::int32_t{});
-    case NumberType::uint32:
-      return as(std::uint32_t{});
-    case NumberType::float32:
-      return as(float{});
-    default:
-      return as(double{});
+    case NumberType::int8: return as(std::int8_t{});
+    case NumberType::uint8: return as(std::uint8_t{});
+    case NumberType::int16: return as(std::int16_t{});
+    case NumberType::uint16: return as(std::uint16_t{});
+    case NumberType::int32: return as(std::int32_t{});
+    case NumberType::uint32: return as(std::uint32_t{});
+    case NumberType::float32: return as(float{});
+    default: return as(double{});
   }
 }
 

@@ -42,26 +42,16 @@ void for_each_number(const Column& column, std::size_t count, Set&& set) {
 template <class Set>
 void for_each(const Column& column, std::size_t count, Set&& set) {
   switch (column.stored) {
-    case NumberType::int8:
-      return for_each_number<std::int8_t>(column, count, set);
-    case NumberType::uint8:
-      return for_each_number<std::uint8_t>(column, count, set);
-    case NumberType::int16:
-      return for_each_number<std::int16_t>(column, count, set);
-    case NumberType::uint16:
-      return for_each_number<std::uint16_t>(column, count, set);
-    case NumberType::int32:
-      return for_each_number<std::int32_t>(column, count, set);
-    case NumberType::uint32:
-      return for_each_number<std::uint32_t>(column, count, set);
-    case NumberType::int64:
-      return for_each_number<std::int64_t>(column, count, set);
-    case NumberType::uint64:
-      return for_each_number<std::uint64_t>(column, count, set);
-    case NumberType::float32:
-      return for_each_number<float>(column, count, set);
-    case NumberType::float64:
-      return for_each_number<double>(column, count, set);
+    case NumberType::int8: return for_each_number<std::int8_t>(column, count, set);
+    case NumberType::uint8: return for_each_number<std::uint8_t>(column, count, set);
+    case NumberType::int16: return for_each_number<std::int16_t>(column, count, set);
+    case NumberType::uint16: return for_each_number<std::uint16_t>(column, count, set);
+    case NumberType::int32: return for_each_number<std::int32_t>(column, count, set);
+    case NumberType::uint32: return for_each_number<std::uint32_t>(column, count, set);
+    case NumberType::int64: return for_each_number<std::int64_t>(column, count, set);
+    case NumberType::uint64: return for_each_number<std::uint64_t>(column, count, set);
+    case NumberType::float32: return for_each_number<float>(column, count, set);
+    case NumberType::float64: return for_each_number<double>(column, count, set);
   }
 }
 

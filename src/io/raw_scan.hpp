@@ -27,17 +27,13 @@ enum class NumberType {
 constexpr std::size_t size_of(NumberType type) {
   switch (type) {
     case NumberType::int8:
-    case NumberType::uint8:
-      return 1;
+    case NumberType::uint8: return 1;
     case NumberType::int16:
-    case NumberType::uint16:
-      return 2;
+    case NumberType::uint16: return 2;
     case NumberType::int32:
     case NumberType::uint32:
-    case NumberType::float32:
-      return 4;
-    default:
-      return 8;
+    case NumberType::float32: return 4;
+    default: return 8;
   }
 }
 

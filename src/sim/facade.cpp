@@ -10,7 +10,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kWood = 0.35, kMetal = 0.4;
-constexpr double kGlass = 0.0005;  // it mirrors: hardly anything comes back
+constexpr double kGlass = 0.0005;     // it mirrors: hardly anything comes back
 constexpr double kBelowGround = 0.8;  // m; no gap opens where the ground falls away
 
 // What the walls of one house have in common.
