@@ -54,10 +54,10 @@ void add_evaluate(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("evaluate", "Compare trajectories with the truth: ATE, RPE, KITTI errors");
   const auto options = std::make_shared<Options>();
-  command->add_option("TRUTH", options->truth, "True trajectory, TUM or KITTI format")->required();
-  command->add_option("ESTIMATE", options->estimates, "Estimated trajectories, TUM or KITTI format")
+  command->add_option("TRUTH", options->truth, "true trajectory, TUM or KITTI format")->required();
+  command->add_option("ESTIMATE", options->estimates, "estimated trajectories, TUM or KITTI format")
       ->required();
-  command->add_flag("--json", options->json, "Print JSON, one entry for each estimate");
+  command->add_flag("--json", options->json, "print JSON, one entry for each estimate");
   command->callback([options] { run_evaluate(*options); });
 }
 

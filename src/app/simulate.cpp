@@ -137,37 +137,37 @@ void add_simulate(CLI::App& app) {
 
   CLI::App* command =
       app.add_subcommand("simulate", "Make scans of a made world, with their truth");
-  command->add_option("WORLD", options->world, "One of:" + worlds)->required();
+  command->add_option("WORLD", options->world, "one of:" + worlds)->required();
   command
       ->add_option("-o,--output", options->output,
-                   "Folder to make, or - for a scan stream on standard output")
+                   "folder to make, or - for a scan stream on standard output")
       ->required();
   command
       ->add_option("--route", options->route,
                    "KITTI or TUM file of poses to drive along, for city and kitti00")
       ->check(CLI::ExistingFile);
   command->add_option("--sensor", options->sensor,
-                      "Sensor preset or file [default: what suits the world]");
-  command->add_option("--seed", options->seed, "Of the world, the noise and the shaking")
+                      "sensor preset or file [default: what suits the world]");
+  command->add_option("--seed", options->seed, "of the world, the noise and the shaking")
       ->capture_default_str();
-  command->add_option("--count", options->count, "Scans [default: the whole drive]")
+  command->add_option("--count", options->count, "scans [default: the whole drive]")
       ->check(CLI::PositiveNumber);
   command
       ->add_option("--distort", options->distort,
-                   "Motion within a sweep [default: as the sensor says]")
+                   "motion within a sweep [default: as the sensor says]")
       ->check(on_off);
   command
       ->add_option("--noise", options->noise,
-                   "Sigma of the ranges, m [default: as the world or the sensor says]")
+                   "sigma of the ranges, m [default: as the world or the sensor says]")
       ->check(CLI::Range(0.0, 1.0));
-  command->add_option("--dropouts", options->drop_outs, "Weak echoes get lost")
+  command->add_option("--dropouts", options->drop_outs, "weak echoes get lost")
       ->capture_default_str()
       ->check(on_off);
   command
       ->add_option("--wear", options->wear,
-                   "Beams are off as those of a used sensor [default: as the world says]")
+                   "beams are off as those of a used sensor [default: as the world says]")
       ->check(on_off);
-  command->add_option("--traffic", options->traffic, "Things that move, in worlds that have some")
+  command->add_option("--traffic", options->traffic, "things that move, in worlds that have some")
       ->capture_default_str()
       ->check(on_off);
   command->add_option("--truth", options->truth,
