@@ -164,6 +164,24 @@ def test_the_links_of_a_page_lead_somewhere(page):
         assert not anchor or anchor in anchors_of(found), target
 
 
+@pytest.mark.parametrize("page", PAGES)
+def test_the_sources_that_a_page_names_exist(page):
+    for name in re.findall(r"`(\w[\w/]+/\w+\.(?:cpp|hpp|py|sh))`", (ROOT / page).read_text()):
+        assert any((ROOT / place / name).exists() for place in ("", "src")), name
+
+
+def test_the_tour_leads_to_what_is_there():
+    rows = re.findall(
+        r"^\|.*\| (`.*/.*`) \| (`.*`).* \|$", (ROOT / "docs/tour.md").read_text(), re.M
+    )
+    assert len(rows) > 25
+    for files, names in rows:
+        sources = [ROOT / "src" / file for file in re.findall(r"`(.*?)`", files)]
+        text = "".join(source.read_text() for source in sources)
+        for name in re.findall(r"`(.*?)`", names):
+            assert re.search(rf"\b{name.split('::')[-1]}\b", text), (files, name)
+
+
 def test_settings_that_a_page_names_exist():
     known = set(
         re.findall(r"^\| `(\w+\.[\w.]+)` \|", (ROOT / "docs/settings.md").read_text(), re.M)
