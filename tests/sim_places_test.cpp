@@ -19,7 +19,8 @@ constexpr std::int64_t millisecond = 1'000'000, second = 1'000 * millisecond;
 class SimPlaces : public testing::TestWithParam<const char*> {};
 
 INSTANTIATE_TEST_SUITE_P(All, SimPlaces,
-                         testing::Values("parking1", "parking2", "mine", "tunnel", "field"),
+                         testing::Values("parking", "street", "parking1", "parking2", "mine",
+                                         "tunnel", "field"),
                          [](const auto& name) { return std::string(name.param); });
 
 TEST_P(SimPlaces, AreDecidedByTheirSeed) {
