@@ -189,6 +189,47 @@ TEST(Slam, TwoRunsAndRunsWithMoreThreadsGiveTheSameBits) {
   expect_same(first, run(4));
 }
 
+// Written and read again after every 20 scans, in a process that knows nothing else.
+TEST(Slam, ARunThatIsReadFromItsStateGoesOnToTheSameBits) {
+  const std::vector<Scan> scans = drive(105, 6.5);
+  Slam whole(made_sensor(900), with_short_loops());
+  Slam resumed(made_sensor(900), with_short_loops());
+  std::string growth;
+  GrownCounts counts;
+  for (std::size_t k = 0; k < scans.size(); ++k) {
+    whole.process(scans[k]);
+    resumed.process(scans[k]);
+    if (k % 20 != 5) continue;
+    StateWriter writer(counts);
+    ASSERT_TRUE(resumed.write(writer));
+    growth += writer.growth();
+    StateReader reader(writer.bytes(), growth);
+    Slam next(made_sensor(900), with_short_loops());
+    next.read(reader);
+    EXPECT_EQ(reader.counts(), writer.counts());
+    counts = reader.counts();
+    resumed = std::move(next);
+  }
+  EXPECT_GE(whole.graph().loop_edges().size(), 2u);
+  expect_same(whole, resumed);
+}
+
+TEST(Slam, AStateThatIsCutOffIsRefused) {
+  const std::vector<Scan> scans = drive(3, 3.0);
+  Slam slam(made_sensor(900), {});
+  StateWriter early;
+  slam.process(scans[0]);
+  EXPECT_FALSE(slam.write(early));
+  slam.process(scans[1]);
+  StateWriter writer;
+  ASSERT_TRUE(slam.write(writer));
+  for (std::size_t size = 0; size < writer.bytes().size(); size += 1 + size / 3) {
+    StateReader reader(std::string_view(writer.bytes()).substr(0, size), writer.growth());
+    Slam next(made_sensor(900), {});
+    EXPECT_THROW(next.read(reader), StateError) << size;
+  }
+}
+
 TEST(Slam, ScansWithoutUsablePointsArePredicted) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float infinity = std::numeric_limits<float>::infinity();

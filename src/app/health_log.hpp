@@ -32,12 +32,23 @@ class HealthLog {
   /// A line for the terminal for each vital that was not always ok.
   std::string text() const;
 
+  /// See core/state_archive.hpp.
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(sums_, stamp_ns_, delay_s_);
+  }
+
  private:
   struct Sum {
     std::size_t warnings = 0;
     std::size_t errors = 0;
     std::optional<double> worst;
     int worst_scan = 0;
+
+    template <class Archive>
+    void state(Archive& archive) {
+      archive(warnings, errors, worst, worst_scan);
+    }
   };
 
   double follow_delay(const ScanReport& report);

@@ -175,13 +175,17 @@ std::vector<NamedError> errors_against(const NamedTruth& truth, const DatasetFac
 ResultWriter::ResultWriter(std::filesystem::path folder, const SensorModel& sensor,
                            const Settings& settings)
     : folder_(std::move(folder)),
+      sensor_(sensor),
       settings_(settings),
       health_(sensor),
       scans_(folder_ / "scans.csv"),
       loops_(folder_ / "loops.csv"),
-      odometry_(folder_ / "odometry.tum") {
-  write_file(folder_ / "settings.yaml", to_yaml(settings));
-  write_file(folder_ / "sensor.yaml", to_yaml(sensor));
+      odometry_(folder_ / "odometry.tum") {}
+
+void ResultWriter::begin() {
+  write_file(folder_ / "settings.yaml", to_yaml(settings_));
+  write_file(folder_ / "sensor.yaml", to_yaml(sensor_));
+  for (AppendFile* table : {&scans_, &loops_, &odometry_}) table->cut(0);
   scans_.append(kScansHeader);
   loops_.append(kLoopsHeader);
 }

@@ -42,6 +42,10 @@ class ResultWriter {
  public:
   ResultWriter(std::filesystem::path folder, const SensorModel& sensor, const Settings& settings);
 
+  /// Begins the files; what a killed run has left of them goes. A state that is read goes on with
+  /// them instead.
+  void begin();
+
   void add(const ScanReport& report);
 
   /// Writes the files that need the whole run. Returns the summary as text for the terminal. Throws
@@ -49,8 +53,16 @@ class ResultWriter {
   /// recording.
   std::string finish(const Slam& slam, const DatasetFacts& dataset, const RunFacts& facts);
 
+  /// See core/state_archive.hpp.
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(scans_, loops_, odometry_, health_, loop_key_frames_, scan_count_, accepted_loops_,
+            refused_loops_, statuses_, stamp_jumps_, first_jump_);
+  }
+
  private:
   std::filesystem::path folder_;
+  SensorModel sensor_;
   Settings settings_;
   HealthLog health_;
   AppendFile scans_;

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "app/checkpoint.hpp"
 #include "app/commands.hpp"
 #include "app/common_options.hpp"
 #include "app/external_command.hpp"
@@ -31,6 +32,8 @@ namespace {
 struct Options : InputOptions {
   CommonOptions common;
   std::optional<std::filesystem::path> output;
+  bool resume = false;
+  double checkpoint_seconds = 60.0;
   std::optional<std::filesystem::path> truth;
   int threads = 2;
   std::optional<std::size_t> count;
@@ -54,8 +57,12 @@ class Input {
     std::optional<ScanOrFault> item =
         prefetcher_ ? prefetcher_->next() : read_next(input_.source());
     at_end_ = !item && !interrupted();
+    if (item) ++taken_;
     return item;
   }
+
+  // How many next() has given, faults among them.
+  std::size_t taken() const { return taken_; }
 
   // How the reader of a recording ended: 0 when it did well, is not done or there is none.
   int reader_exit_code() { return at_end_ ? input_.wait_for_reader() : 0; }
@@ -65,6 +72,7 @@ class Input {
  private:
   ScanInput input_;
   std::optional<std::size_t> left_;
+  std::size_t taken_ = 0;
   bool at_end_ = false;
   std::optional<ScanPrefetcher> prefetcher_;
 };
@@ -116,6 +124,59 @@ std::optional<std::size_t> expected_scans(const ScanSource& source, const Option
   return options.count ? std::min(rest, *options.count) : rest;
 }
 
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+std::filesystem::path folder_of(const Options& options) {
+  std::error_code error;
+  const bool is_new = !options.resume || !std::filesystem::exists(*options.output, error) ||
+                      std::filesystem::is_empty(*options.output, error);
+  if (is_new) return make_run_folder(options.output, options.input);
+  if (Checkpoint::marks(*options.output)) return *options.output;
+  throw InputError(options.output->string() +
+                   ": holds no checkpoint to resume from; a run that is done has none");
+}
+
+// What a checkpoint says besides the state of the SLAM and of the tables.
+struct Bookmark {
+  std::string settings, sensor;     // as YAML
+  std::size_t taken = 0;            // of the input
+  std::int64_t stamp_ns = 0;        // of the last scan
+  std::vector<std::string> faults;  // so far
+  double wall_seconds = 0.0;        // so far
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(settings, sensor, taken, stamp_ns, faults, wall_seconds);
+  }
+};
+
+// Goes on from the checkpoint. `mark` is where the run is: it has settings, sensor and the last
+// scan taken.
+void resume(const Options& options, Checkpoint& checkpoint, Input& input, ResultWriter& writer,
+            Slam& slam, Bookmark& mark) {
+  Bookmark saved;
+  checkpoint.load([&](StateReader& reader) {
+    reader(saved);
+    if (saved.settings != mark.settings || saved.sensor != mark.sensor)
+      throw InputError(options.output->string() +
+                       ": was begun with other settings or another sensor; give those of its "
+                       "settings.yaml and sensor.yaml to resume it");
+    reader(writer);
+    slam.read(reader);
+  });
+  while (input.taken() < saved.taken) {
+    const std::optional<ScanOrFault> item = input.next();
+    if (!item) break;
+    if (const auto* scan = std::get_if<Scan>(&*item)) mark.stamp_ns = scan->stamp_ns;
+  }
+  if (!interrupted() && (input.taken() != saved.taken || mark.stamp_ns != saved.stamp_ns))
+    throw InputError(options.output->string() + ": was begun with other scans than those of " +
+                     options.input + "; give the same INPUT, --first and --count to resume it");
+  mark = std::move(saved);
+}
+
 void run(const Options& options, int& exit_code) {
   const auto begin = std::chrono::steady_clock::now();
   const CommonOptions& common = options.common;
@@ -143,26 +204,50 @@ void run(const Options& options, int& exit_code) {
     for (const std::string& note : input.source().notes()) spdlog::info("{}", note);
   }
 
-  const std::filesystem::path folder = make_run_folder(options.output, options.input);
+  const std::filesystem::path folder = folder_of(options);
+  Checkpoint checkpoint(folder);
   ResultWriter writer(folder, sensor, settings);
   Slam slam(sensor, settings, std::max(options.threads - 1, 1), {},
             std::make_shared<BlobFile>(folder / "key_frames.bin"));
   catch_interrupts();
+  Bookmark mark{to_yaml(settings), to_yaml(sensor), 0, scans.back().stamp_ns, {}, 0.0};
+  if (checkpoint.holds_state()) {
+    resume(options, checkpoint, input, writer, slam, mark);
+    facts.faults = mark.faults;
+    scans.clear();
+  } else {
+    writer.begin();
+  }
+  const double wall_seconds_before = mark.wall_seconds;
+  auto saved = std::chrono::steady_clock::now();
   {
     Progress progress(expected_scans(input.source(), options), options.quiet);
-    while (!scans.empty() && !interrupted()) {
+    while (!interrupted()) {
+      if (scans.empty()) {
+        std::optional<Scan> scan = next_scan(input, facts);
+        if (!scan) break;
+        scans.push_back(std::move(*scan));
+      }
       writer.add(slam.process(scans.front()));
       progress.step();
+      mark.stamp_ns = scans.front().stamp_ns;
       scans.pop_front();
-      if (!scans.empty()) continue;
-      if (std::optional<Scan> scan = next_scan(input, facts)) scans.push_back(std::move(*scan));
+      if (!scans.empty() || seconds_since(saved) < options.checkpoint_seconds) continue;
+      mark.taken = input.taken();
+      mark.faults = facts.faults;
+      mark.wall_seconds = wall_seconds_before + seconds_since(begin);
+      checkpoint.save([&](StateWriter& state) {
+        state(mark, writer);
+        return slam.write(state);
+      });
+      saved = std::chrono::steady_clock::now();
     }
   }
   note_reader_fault(input, facts);
   facts.interrupted = interrupted();
-  facts.wall_seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  facts.wall_seconds = wall_seconds_before + seconds_since(begin);
   const std::string summary = writer.finish(slam, dataset, facts);
+  checkpoint.remove();
   if (!options.quiet) std::printf("%sresults in %s\n", summary.c_str(), folder.c_str());
   if (!facts.faults.empty()) exit_code = 1;
   if (options.report && !make_report(folder, options.quiet)) exit_code = 1;
@@ -176,7 +261,17 @@ void add_run(CLI::App& app, int& exit_code) {
   add_input_options(*command, *options, "INPUT",
                     "KITTI sequence folder, folder of .bin, .pcd or .ply scans, ROS bag, Velodyne "
                     ".pcap, or - for a scan stream on standard input");
-  command->add_option("-o,--output", options->output, "folder for the results, new or empty");
+  auto* output =
+      command->add_option("-o,--output", options->output, "folder for the results, new or empty");
+  command
+      ->add_flag("--resume", options->resume,
+                 "go on in the folder of a run that was killed, from its last checkpoint")
+      ->needs(output);
+  command
+      ->add_option("--checkpoint", options->checkpoint_seconds,
+                   "seconds of work from one checkpoint to the next")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   add_common_options(*command, options->common);
   command->add_option("--threads", options->threads, "bound on all threads")
       ->check(CLI::Range(1, 1024))

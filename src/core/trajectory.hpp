@@ -12,6 +12,11 @@ namespace lego_loam_sc {
 struct StampedPose {
   std::int64_t stamp_ns = 0;
   Pose pose = Pose::Identity();
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(stamp_ns, pose);
+  }
 };
 
 /// In the order of time.

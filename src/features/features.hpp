@@ -20,6 +20,11 @@ struct FeaturePoint {
   std::uint16_t row = 0;
   std::uint16_t column = 0;
   Label label = Label::segment;
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(position, age, intensity, row, column, label);
+  }
 };
 
 /// The feature sets of paper 2.3 (2). The small sets hold the sharpest edges and the flattest

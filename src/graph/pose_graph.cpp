@@ -162,6 +162,7 @@ PoseGraph::~PoseGraph() = default;
 void PoseGraph::add_first(const Pose& T_map_key) {
   if (!solver_->poses.empty()) throw std::invalid_argument("the first key frame is there already");
   solver_->add_first(T_map_key);
+  calls_.push_back({Call::Kind::add_first, {.T_from_to = T_map_key}});
 }
 
 void PoseGraph::add_key_frame(const PoseEdge& odometry) {
@@ -172,6 +173,7 @@ void PoseGraph::add_key_frame(const PoseEdge& odometry) {
   check(odometry, "odometry");
   solver_->poses.push_back(normalized(solver_->poses.back() * odometry.T_from_to));
   solver_->odometry.push_back(odometry);
+  calls_.push_back({Call::Kind::add_key_frame, odometry});
 }
 
 void PoseGraph::add_loop(const PoseEdge& loop) {
@@ -182,16 +184,29 @@ void PoseGraph::add_loop(const PoseEdge& loop) {
                                 std::to_string(count));
   check(loop, "loop");
   solver_->add_loop(loop);
+  calls_.push_back({Call::Kind::add_loop, loop});
 }
 
 void PoseGraph::remove_loop(std::size_t loop_index) {
   if (loop_index >= solver_->loops.size())
     throw std::invalid_argument("there is no loop edge " + std::to_string(loop_index));
   solver_->remove_loop(static_cast<std::ptrdiff_t>(loop_index));
+  calls_.push_back({Call::Kind::remove_loop, {.to = static_cast<int>(loop_index)}});
 }
 
 void PoseGraph::optimise() {
   solver_->optimise();
+  calls_.push_back({});
+}
+
+void PoseGraph::repeat_calls() {
+  for (const Call& call : std::exchange(calls_, {})) switch (call.kind) {
+      case Call::Kind::add_first: add_first(call.edge.T_from_to); break;
+      case Call::Kind::add_key_frame: add_key_frame(call.edge); break;
+      case Call::Kind::add_loop: add_loop(call.edge); break;
+      case Call::Kind::remove_loop: remove_loop(static_cast<std::size_t>(call.edge.to)); break;
+      case Call::Kind::optimise: optimise(); break;
+    }
 }
 
 std::size_t PoseGraph::size() const {

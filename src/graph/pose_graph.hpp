@@ -23,6 +23,11 @@ struct PoseEdge {
   int to = 0;
   Pose T_from_to = Pose::Identity();
   Matrix6 covariance = Matrix6::Identity();
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(from, to, T_from_to, covariance);
+  }
 };
 
 /// The key frames, the odometry between them and the loops: paper 2.3 (4) and (6).
@@ -79,9 +84,32 @@ class PoseGraph {
   /// upper bound of the uncertainty: loops can only lower it. Takes time in proportion to |b - a|.
   Matrix6 relative_covariance(int a, int b) const;
 
+  /// See core/state_archive.hpp. What the solver keeps depends on all that it was told, so a graph
+  /// is read by telling it everything again.
+  template <class Archive>
+  void state(Archive& archive) {
+    archive.grown(calls_);
+    if constexpr (Archive::kReads) repeat_calls();
+  }
+
  private:
   class Solver;
+  struct Call {
+    enum class Kind { add_first, add_key_frame, add_loop, remove_loop, optimise };
+
+    Kind kind = Kind::optimise;
+    PoseEdge edge;  // of the first key frame the pose, of a loop to be removed the number as `to`
+
+    template <class Archive>
+    void state(Archive& archive) {
+      archive(kind, edge);
+    }
+  };
+
+  void repeat_calls();
+
   std::unique_ptr<Solver> solver_;
+  std::vector<Call> calls_;  // that changed something
 };
 
 }  // namespace lego_loam_sc

@@ -10,8 +10,9 @@
 namespace lego_loam_sc {
 
 AppendFile::AppendFile(std::filesystem::path path) : path_(std::move(path)) {
-  file_ = std::fopen(path_.c_str(), "wb");
+  file_ = std::fopen(path_.c_str(), "ab");
   if (!file_) fail(errno);
+  size_ = std::filesystem::file_size(path_);
 }
 
 AppendFile::~AppendFile() {
@@ -30,6 +31,15 @@ void AppendFile::append(std::string_view lines) {
   std::error_code gone;
   std::filesystem::resize_file(path_, size_, gone);
   fail(error);
+}
+
+void AppendFile::cut(std::size_t size) {
+  if (size > size_)
+    throw InputError(path_.string() + ": has lost its end; begin the run anew in another folder");
+  std::error_code error;
+  std::filesystem::resize_file(path_, size, error);
+  if (error) fail(error.value());
+  size_ = size;
 }
 
 void AppendFile::fail(int error) const {

@@ -21,6 +21,11 @@ struct PackedPoint {
     return kStep *
            Eigen::Vector3f(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z));
   }
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(x, y, z, intensity.x);
+  }
 };
 
 /// Rounds to the nearest step; points out of reach are clamped to it.
@@ -35,6 +40,11 @@ struct KeyFrame {
   std::vector<PackedPoint> edges;      ///< of the large edge set
   std::vector<PackedPoint> scattered;  ///< of the scattered points
   std::vector<PackedPoint> others;     ///< further points of ground and clusters, for the map
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(reference_ns, travelled, planars, edges, scattered, others);
+  }
 };
 
 /// The large sets and the scattered points as features again, for matching.

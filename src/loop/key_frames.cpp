@@ -10,6 +10,11 @@ namespace lego_loam_sc {
 
 KeyFrames::KeyFrames(std::shared_ptr<BlobStore> store)
     : store_(store ? std::move(store) : std::make_shared<MemoryBlobs>()) {
+  clear();
+}
+
+void KeyFrames::clear() {
+  entries_.clear();
   store_->clear();
 }
 

@@ -28,6 +28,15 @@ class KeyFrames {
   /// unpack() of a key frame, whose other points are left alone.
   Features features(std::size_t k) const;
 
+  /// See core/state_archive.hpp.
+  template <class Archive>
+  void state(Archive& archive) {
+    if constexpr (Archive::kReads) clear();
+    archive.template grown<KeyFrame>(
+        size(), [&](std::size_t k) { return (*this)[k]; },
+        [&](const KeyFrame& key_frame) { add(key_frame); });
+  }
+
  private:
   static constexpr std::size_t kClouds = 4;
   struct Entry {
@@ -42,6 +51,7 @@ class KeyFrames {
   static auto clouds(Frame& k) {
     return std::array{&k.planars, &k.edges, &k.scattered, &k.others};
   }
+  void clear();
   KeyFrame load(const Entry& entry, std::size_t count) const;
 
   std::shared_ptr<BlobStore> store_;

@@ -24,6 +24,13 @@ class ScanContextIndex {
   /// that the first is c* of equation (8). Of equal ones the earlier key frame comes first.
   std::vector<LoopCandidate> search(int query, int eligible) const;
 
+  /// See core/state_archive.hpp.
+  template <class Archive>
+  void state(Archive& archive) {
+    archive.grown(contexts_);
+    archive(ring_keys_);
+  }
+
  private:
   ScanContextSettings settings_;
   std::vector<ScanContext> contexts_;

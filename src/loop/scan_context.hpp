@@ -17,6 +17,11 @@ struct ScanContext {
   std::vector<float> columns;   ///< sectors x rings: c_j / |c_j|, or zeros when the sector is empty
   std::vector<float> occupied;  ///< one per sector: 1 where the column holds a point, else 0
   std::vector<float> ring_key;  ///< one per ring, from the nearest to the farthest, m: K of (7)
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(rings, sectors, columns, occupied, ring_key);
+  }
 };
 
 /// How well one scan context fits another when it is turned: equations (5) and (6).

@@ -27,6 +27,12 @@ class ElevationBias {
   /// of the scans so far.
   double value() const { return value_; }
 
+  /// See core/state_archive.hpp.
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(value_, information_);
+  }
+
  private:
   double value_ = 0.0;
   double information_ = 0.0;  // of all scans, 1/rad^2

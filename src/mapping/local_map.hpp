@@ -53,6 +53,13 @@ class LocalMap {
   void clear();
   std::size_t size() const;
 
+  /// See core/state_archive.hpp.
+  template <class Archive>
+  void state(Archive& archive) {
+    for (auto* maps : {&planes_, &lines_, &scattered_})
+      for (SurfaceMap& map : *maps) archive(map);
+  }
+
  private:
   std::vector<double> reach_;       // m, up to which the finer levels take planes and lines
   std::vector<SurfaceMap> planes_;  // finest first

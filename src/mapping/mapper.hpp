@@ -58,6 +58,12 @@ class Mapper {
   void clear();
   bool empty() const { return map_.size() == 0; }
 
+  /// See core/state_archive.hpp.
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(map_, elevation_bias_, spacing_, first_level_, last_insertion_, last_eviction_);
+  }
+
  private:
   void adapt_spacing(int points);
 

@@ -67,6 +67,12 @@ class SurfaceMap {
   void clear();
   std::size_t size() const { return voxels_.size(); }
 
+  /// See core/state_archive.hpp.
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(voxels_, blocks_, revision_);
+  }
+
  private:
   // Numbers are relative to the middle of the voxel or block, so that floats serve.
   struct Voxel {
@@ -74,6 +80,11 @@ class SurfaceMap {
     float range = 0.0f;                             // sum, m
     Eigen::Vector3f sum = Eigen::Vector3f::Zero();  // of the points
     std::array<float, 6> square{};                  // sums of xx yy zz xy xz yz
+
+    template <class Archive>
+    void state(Archive& archive) {
+      archive(count, range, sum, square);
+    }
   };
   struct Block {
     std::uint32_t due = 0;    // revision of the map at which the block is looked at again
@@ -83,6 +94,11 @@ class SurfaceMap {
     Eigen::Vector3f direction = Eigen::Vector3f::Zero();
     float variance = 0.0f;
     float range = 0.0f;
+
+    template <class Archive>
+    void state(Archive& archive) {
+      archive(due, count, kind, mean, direction, variance, range);
+    }
   };
 
   void add(const Eigen::Vector3d& point, double range, const Cell& cell);

@@ -128,6 +128,16 @@ class VoxelTable {
     rebuild(slots_.size());
   }
 
+  /// See core/state_archive.hpp.
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(keys_, values_);
+    if constexpr (Archive::kReads) {
+      slots_.clear();
+      reserve(keys_.size());
+    }
+  }
+
  private:
   struct Slot {
     VoxelKey key = 0;

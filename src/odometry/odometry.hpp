@@ -41,6 +41,17 @@ class Odometry {
 
   bool has_previous() const { return edges_.has_value(); }
 
+  /// See core/state_archive.hpp.
+  template <class Archive>
+  void state(Archive& archive) {
+    bool has = has_previous();
+    Features previous;
+    if (has) previous.edges_large = edges_->points();
+    previous.planars_large = planars_;
+    archive(has, previous.edges_large, previous.planars_large);
+    if (Archive::kReads && has) set_previous(previous);
+  }
+
  private:
   OdometrySettings settings_;
   double range_noise_;

@@ -33,6 +33,12 @@ class LoopCloser {
   std::vector<LoopReport> close(const KeyFrames& key_frames, Pieces& pieces,
                                 PoseGraph& graph);
 
+  /// See core/state_archive.hpp.
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(contexts_, last_loop_travelled_);
+  }
+
  private:
   std::vector<LoopCandidate> candidates(const KeyFrames& key_frames, const Pieces& pieces,
                                         const PoseGraph& graph) const;

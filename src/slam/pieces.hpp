@@ -26,6 +26,12 @@ class Pieces {
   /// Number of maps that no loop joins.
   int maps() const;
 
+  /// See core/state_archive.hpp.
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(first_, map_);
+  }
+
  private:
   int piece_of(int key_frame) const;
 

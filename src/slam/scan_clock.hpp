@@ -27,6 +27,12 @@ class ScanClock {
   /// from zero (146 years) that differences would overflow. Such a scan leaves the clock as it is.
   std::optional<ScanTime> read(std::int64_t stamp_ns);
 
+  /// See core/state_archive.hpp.
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(step_ns_, started_, stamp_ns_, time_ns_, ahead_ns_, ahead_before_ns_);
+  }
+
  private:
   std::int64_t step_ns_;
   bool started_ = false;

@@ -57,6 +57,11 @@ struct Placed {
   Pose T_map_lidar = Pose::Identity();
   Pose T_odom_lidar = Pose::Identity();
   Vector6 twist = Vector6::Zero();  // m/s and rad/s, of the sensor in its own axes
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(reference_ns, T_map_lidar, T_odom_lidar, twist);
+  }
 };
 
 double seconds_between(std::int64_t from_ns, std::int64_t to_ns) {
@@ -97,6 +102,15 @@ struct Slam::State {
   void close_loops(ScanReport& report);
   void rebuild_local_map();
   Pose of_lidar(Pose T_frame_level) const;
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(sensor.mount_roll_deg, sensor.mount_pitch_deg, sensor.elevation_correction_deg, clock,
+            height, odometry, mapper, loop_closer, graph, pieces, fusion, key_frames, scans,
+            previous, twist, speed, travelled, in_doubt, lost_scans);
+    archive.grown(scan_of_key_frame);
+    archive.grown(live);
+  }
 
   SensorModel given_sensor;
   SensorModel sensor;  // the same with the tilt and the elevations that were found on the way
@@ -414,6 +428,16 @@ ScanReport Slam::begin_again(const Scan& first, const Scan& second, ScanReport r
     state_ = std::move(again);
   }
   return report;
+}
+
+bool Slam::write(StateWriter& writer) const {
+  if (state_->first_scan) return false;
+  writer(*state_);
+  return true;
+}
+
+void Slam::read(StateReader& reader) {
+  state_->arena.execute([&] { reader(*state_); });
 }
 
 const Trajectory& Slam::odometry() const {

@@ -8,6 +8,7 @@
 #include "core/scan.hpp"
 #include "core/sensor_model.hpp"
 #include "core/settings.hpp"
+#include "core/state_archive.hpp"
 #include "core/trajectory.hpp"
 #include "graph/pose_graph.hpp"
 #include "loop/key_frame.hpp"
@@ -41,6 +42,15 @@ class Slam {
   /// @{
   const Trajectory& odometry() const;
   Trajectory trajectory() const;
+  /// @}
+
+  /// Writes all that later scans depend on, so that a Slam made with the same sensor and settings
+  /// that reads it goes on to the same bits; a detector of the user's own has to look after itself.
+  /// Not after the first scan in order alone, which the second may change: false, and nothing is
+  /// written. `read` throws StateError when the bytes are no such state.
+  /// @{
+  bool write(StateWriter& writer) const;
+  void read(StateReader& reader);
   /// @}
 
   const KeyFrames& key_frames() const;  ///< in the order of time

@@ -19,11 +19,22 @@ class TransformFusion {
   /// The pose of every scan for the given poses of the key frames.
   Trajectory fuse(std::span<const Pose> T_map_key) const;
 
+  /// See core/state_archive.hpp.
+  template <class Archive>
+  void state(Archive& archive) {
+    archive.grown(entries_);
+  }
+
  private:
   struct Entry {
     std::int64_t stamp_ns;
     int key_frame;
     Pose T_key_scan;
+
+    template <class Archive>
+    void state(Archive& archive) {
+      archive(stamp_ns, key_frame, T_key_scan);
+    }
   };
   std::vector<Entry> entries_;
 };

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/checkpoint.hpp"
+
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "io/atomic_file.hpp"
+#include "io/bytes.hpp"
+#include "io/error.hpp"
+#include "io/file.hpp"
+
+namespace lego_loam_sc {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kMagic = "lego-loam-sc checkpoint\n";
+
+// FNV-1a.
+constexpr std::uint64_t kHashOfNothing = 0xcbf29ce484222325;
+std::uint64_t hash_on(std::uint64_t hash, std::string_view bytes) {
+  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
+  return hash;
+}
+
+[[noreturn]] void damaged(const fs::path& path, const std::string& what) {
+  throw InputError(path.string() + ": " + what +
+                   "; the run cannot be resumed, begin it anew in another folder");
+}
+
+struct Head {
+  std::string version = LEGO_LOAM_SC_VERSION;
+  std::uint64_t growth_size = 0;
+  std::uint64_t growth_hash = kHashOfNothing;
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(version, growth_size, growth_hash);
+  }
+};
+
+}  // namespace
+
+Checkpoint::Checkpoint(fs::path folder)
+    : state_path_(folder / "checkpoint"),
+      growth_path_(folder / "checkpoint.growth"),
+      growth_hash_(kHashOfNothing) {
+  if (!marks(folder)) write_file(state_path_, "");
+}
+
+bool Checkpoint::marks(const fs::path& folder) {
+  std::error_code error;
+  return fs::is_regular_file(folder / "checkpoint", error);
+}
+
+bool Checkpoint::holds_state() const {
+  std::error_code error;
+  return fs::file_size(state_path_, error) > 0;
+}
+
+void Checkpoint::load(const std::function<void(StateReader&)>& read) {
+  const std::string file = read_file(state_path_);
+  constexpr std::size_t kHashed = kMagic.size() + sizeof(std::uint64_t);
+  if (file.size() < kHashed || !file.starts_with(kMagic)) damaged(state_path_, "is no checkpoint");
+  const std::string_view bytes = std::string_view(file).substr(kHashed);
+  if (lego_loam_sc::load<std::uint64_t>(file.data() + kMagic.size()) !=
+      hash_on(kHashOfNothing, bytes))
+    damaged(state_path_, "is damaged");
+
+  Head head;
+  const std::string version = std::exchange(head.version, {});
+  StateReader(bytes, {})(head);
+  if (head.version != version)
+    damaged(state_path_, "was written by version " + head.version + ", this is " + version);
+  std::string growth = read_file(growth_path_);
+  if (growth.size() < head.growth_size) damaged(growth_path_, "has lost its end");
+  growth.resize(head.growth_size);
+  if (hash_on(kHashOfNothing, growth) != head.growth_hash) damaged(growth_path_, "is damaged");
+
+  StateReader reader(bytes, growth);
+  try {
+    reader(head);
+    read(reader);
+  } catch (const StateError& error) {
+    damaged(state_path_, error.what());
+  }
+  growth_.emplace(growth_path_).cut(head.growth_size);
+  growth_hash_ = head.growth_hash;
+  counts_ = reader.counts();
+}
+
+void Checkpoint::save(const std::function<bool(StateWriter&)>& write) {
+  StateWriter state(counts_);
+  if (!write(state)) return;
+  if (!growth_) growth_.emplace(growth_path_).cut(0);
+  growth_->append(state.growth());
+  growth_hash_ = hash_on(growth_hash_, state.growth());
+
+  StateWriter head;
+  head(Head{.growth_size = growth_->size(), .growth_hash = growth_hash_});
+  std::string hash;
+  append(hash, hash_on(hash_on(kHashOfNothing, head.bytes()), state.bytes()));
+  AtomicFile file(state_path_);
+  file.write(kMagic);
+  file.write(hash);
+  file.write(head.bytes());
+  file.write(state.bytes());
+  file.commit();
+  counts_ = state.counts();
+}
+
+void Checkpoint::remove() {
+  growth_.reset();
+  std::error_code error;
+  fs::remove(state_path_, error);
+  fs::remove(growth_path_, error);
+}
+
+}  // namespace lego_loam_sc
