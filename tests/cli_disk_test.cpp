@@ -102,7 +102,7 @@ TEST(Disk, FolderRemovedDuringTheRunIsSaid) {
                             " all; until [ -s result/scans.csv ]; do sleep 0.05; done; "
                             "rm -r result; tail -c +$((" +
                             half + " + 1)) all; } | $P run - -o result --quiet"),
-                      {"result/trajectory.tum cannot be written: No such file"});
+                      {"result/scans.csv: was removed while it was written"});
   EXPECT_FALSE(fs::exists(shell.folder() / "result"));
 }
 

@@ -6,6 +6,7 @@ import re
 import struct
 
 import pytest
+from lego_loam_sc.compression import zstd
 from made_bags import (
     KINDS,
     Messages,
@@ -211,6 +212,25 @@ def test_a_chunk_that_promises_more_than_memory_holds_is_left_out_alone(tmp_path
     assert outcome.exit_code == 1
     (sentence,) = outcome.messages
     assert f"it promises {promise} bytes" in sentence
+
+
+def test_a_packed_file_that_unpacks_to_more_than_the_disk_holds_is_cut(tmp_path, read):
+    bag = storage_file(write_sweeps(tmp_path, "mcap", 3))
+    zeros = zstd.compress(bytes(1 << 26))
+    bomb = tmp_path / "bomb.mcap.zstd"
+    bomb.write_bytes(zstd.compress(bag.read_bytes() + bytes(1 << 29)))
+    outcome = read(bomb, "--quiet")
+    assert outcome.exit_code == 1
+    assert outcome.stamps() == stamps([0, 1, 2])
+    assert "it gives more than 100 times its size" in outcome.messages[0]
+
+    for _ in range(3):  # packed again and again
+        zeros = zstd.compress(zeros)
+    bomb.write_bytes(zeros)
+    outcome = read(bomb, "--quiet")
+    assert outcome.exit_code == 1
+    (sentence,) = outcome.messages
+    assert "bomb.mcap is no ROS bag" in sentence
 
 
 def test_names_in_metadata_lead_to_no_file_elsewhere(tmp_path, read):

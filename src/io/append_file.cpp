@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/append_file.hpp"
 
+#include <sys/stat.h>
+
 #include <cerrno>
 #include <cstring>
 #include <utility>
@@ -23,6 +25,10 @@ void AppendFile::append(std::string_view lines) {
   if (std::fwrite(lines.data(), 1, lines.size(), file_) == lines.size() &&
       std::fflush(file_) == 0) {
     size_ += lines.size();
+    struct stat status;
+    if (::fstat(::fileno(file_), &status) == 0 && status.st_nlink == 0)
+      throw InputError(path_.string() +
+                       ": was removed while it was written; begin anew in another folder");
     return;
   }
   const int error = errno;

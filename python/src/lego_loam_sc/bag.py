@@ -128,14 +128,15 @@ def _natural_key(path: Path) -> list[tuple[int, str]]:
     return [(int(part), "") if part.isdigit() else (-1, part) for part in parts]
 
 
-def _open_file(path: Path, report: Report, stack: ExitStack) -> _File:
+def _open_file(path: Path, report: Report, stack: ExitStack, packed: bool = True) -> _File:
+    """`packed`: it may be compressed as a whole."""
     try:
         with path.open("rb") as file:
             magic = file.read(16)
             if not magic:
                 raise InputError(f"{path} is empty")
-            if magic.startswith(ZSTD_MAGIC):
-                return _open_file(_unpack(path, report, stack), report, stack)
+            if packed and magic.startswith(ZSTD_MAGIC):
+                return _open_file(_unpack(path, report, stack), report, stack, packed=False)
             if magic == sqlite_bag.MAGIC:
                 return sqlite_bag.SqliteBag(path, report)
             for kind in (rosbag1, mcap):

@@ -17,6 +17,7 @@ else:
 
 ZSTD_MAGIC = b"\x28\xb5\x2f\xfd"
 LARGEST = 1 << 28  # bytes; more in one piece is a lie or a bomb
+_MOST_PER_BYTE = 100  # of a packed file; recordings give less than ten
 _PIECE = 1 << 20  # bytes
 
 _DECOMPRESSORS = {
@@ -46,11 +47,16 @@ def decompress(kind: str, data: bytes | memoryview, size: int = LARGEST) -> byte
 def unpack(packed: BinaryIO) -> Iterator[bytes]:
     """The content of a zstd file piece by piece. Raises InputError behind what is whole."""
     decompressor = zstd.ZstdDecompressor()
+    left = LARGEST  # bytes that may come
     try:
         while not decompressor.eof:
             piece = packed.read(_PIECE) if decompressor.needs_input else b""
             if decompressor.needs_input and not piece:
                 raise InputError("it is cut off")
-            yield decompressor.decompress(piece, max_length=_PIECE)
+            unpacked = decompressor.decompress(piece, max_length=_PIECE)
+            left += _MOST_PER_BYTE * len(piece) - len(unpacked)
+            if left < 0:
+                raise InputError(f"it gives more than {_MOST_PER_BYTE} times its size")
+            yield unpacked
     except zstd.ZstdError as error:
         raise InputError(f"it is damaged ({error})") from error
