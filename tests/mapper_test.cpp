@@ -110,12 +110,12 @@ TEST(Mapper, StandingStillAddsNothing) {
   Mapper mapper(settings, kNoise);
   const Pose at = pose_of(0, 4, kMadeHeight), near = pose_of(0.02, 4, kMadeHeight);
   const Features features = features_at(hall(), at, 60, kMadeHeight);
-  mapper.insert(features, at);
+  mapper.add_scan(features, at);
   const MapMatch once = mapper.refine(features, {at, at, Pose::Identity(), 0.1});
-  for (int k = 0; k < 5; ++k) mapper.insert(features, near);
+  for (int k = 0; k < 5; ++k) mapper.add_scan(features, near);
   EXPECT_EQ(mapper.refine(features, {at, at, Pose::Identity(), 0.1}).rmse, once.rmse);
   mapper.clear();
-  mapper.insert(features, near);
+  mapper.add_scan(features, near);
   EXPECT_FALSE(mapper.empty());
 }
 
@@ -182,7 +182,7 @@ TEST(Mapper, ForgetsWhatItHasLeftBehind) {
   const Features features = features_at(hall(), here, 55, kMadeHeight);
   EXPECT_TRUE(mapper.refine(features, {here, here, Pose::Identity(), 0.1}).matched);
   const Pose far = pose_of(300, 0, kMadeHeight);
-  mapper.insert(features, far);
+  mapper.add_scan(features, far);
   EXPECT_FALSE(mapper.refine(features, {here, here, Pose::Identity(), 0.1}).matched);
   EXPECT_TRUE(mapper.refine(features, {far, far, Pose::Identity(), 0.1}).matched);
 }

@@ -22,6 +22,7 @@
 #include "io/blob_file.hpp"
 #include "io/error.hpp"
 #include "io/recognise_sensor.hpp"
+#include "io/sensor_yaml.hpp"
 #include "io/settings_yaml.hpp"
 #include "io/trajectory.hpp"
 #include "slam/slam.hpp"

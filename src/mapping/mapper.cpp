@@ -267,10 +267,14 @@ void Mapper::clear() {
 }
 
 void Mapper::insert(const Features& deskewed, const Pose& T_map_lidar) {
+  map_.insert(deskewed, T_map_lidar, first_level_);
+}
+
+void Mapper::add_scan(const Features& deskewed, const Pose& T_map_lidar) {
   const Eigen::Vector3d position = T_map_lidar.translation();
   if (last_insertion_ && (position - *last_insertion_).norm() < settings_.insert_distance) return;
   last_insertion_ = position;
-  map_.insert(deskewed, T_map_lidar, first_level_);
+  insert(deskewed, T_map_lidar);
   if ((position - last_eviction_).norm() > kEvictionShare * settings_.radius) {
     map_.remove_beyond(position, settings_.radius);
     last_eviction_ = position;

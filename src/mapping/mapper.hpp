@@ -50,10 +50,12 @@ class Mapper {
   /// it is not to be estimated.
   double elevation_bias() const { return elevation_bias_.value(); }
 
-  /// Adds features that are already de-skewed, unless the sensor has hardly moved since the last
-  /// ones: what it sees while it stands adds nothing but the pattern of its beams. Forgets what is
-  /// out of reach.
+  /// Adds features that are already de-skewed.
   void insert(const Features& deskewed, const Pose& T_map_lidar);
+
+  /// Adds those of the present scan, unless the sensor has hardly moved since the last ones: what
+  /// it sees while it stands adds nothing but the pattern of its beams. Forgets what is out of reach.
+  void add_scan(const Features& deskewed, const Pose& T_map_lidar);
 
   void clear();
   bool empty() const { return map_.size() == 0; }

@@ -19,6 +19,7 @@
 #include "slam/edge_covariance.hpp"
 #include "slam/loop_closer.hpp"
 #include "slam/make_key_frame.hpp"
+#include "slam/map_upkeep.hpp"
 #include "slam/pieces.hpp"
 #include "slam/scan_clock.hpp"
 #include "slam/stage_timer.hpp"
@@ -90,6 +91,7 @@ struct Slam::State {
         mapper(settings.mapping, sensor.range_noise, row_spacing(sensor)),
         loop_closer(settings.loop, settings.graph, sensor.range_noise, detector),
         graph(settings.graph),
+        upkeep(settings.mapping.radius),
         key_frames(point_store) {}
 
   ScanReport process(const Scan& scan);
@@ -100,13 +102,12 @@ struct Slam::State {
   void begin_piece(ScanReport& report);
   void add_key_frame(const KeyFrame& key_frame, const MapMatch& match, ScanContext context);
   void close_loops(ScanReport& report);
-  void rebuild_local_map();
   Pose of_lidar(Pose T_frame_level) const;
 
   template <class Archive>
   void state(Archive& archive) {
     archive(sensor.mount_roll_deg, sensor.mount_pitch_deg, sensor.elevation_correction_deg, clock,
-            height, odometry, mapper, loop_closer, graph, pieces, fusion, key_frames, scans,
+            height, odometry, mapper, loop_closer, graph, pieces, upkeep, T_map_key, fusion, key_frames, scans,
             previous, twist, speed, travelled, in_doubt, lost_scans);
     archive.grown(scan_of_key_frame);
     archive.grown(live);
@@ -126,6 +127,8 @@ struct Slam::State {
   LoopCloser loop_closer;
   PoseGraph graph;
   Pieces pieces;
+  MapUpkeep upkeep;
+  Pose T_map_key = Pose::Identity();  // the last key frame, where the mapper has it
   TransformFusion fusion;
   KeyFrames key_frames;
   std::vector<int> scan_of_key_frame;
@@ -228,7 +231,8 @@ ScanReport Slam::State::process(const Scan& scan) {
     previous = current;
     features_deskewed = deskew(features, current.twist);
     odometry.set_previous(features_deskewed);
-    if (report.mapped) mapper.insert(features_deskewed, current.T_map_lidar);
+    if (report.mapped) mapper.add_scan(features_deskewed, current.T_map_lidar);
+    upkeep.go_on(graph.poses(), key_frames, mapper);
   }
 
   timer.start(Stage::loops);
@@ -241,14 +245,14 @@ ScanReport Slam::State::process(const Scan& scan) {
                                  settings.key_frames.point_spacing),
                   match, make_scan_context(points, height, settings.loop.scan_context));
     close_loops(report);
-    T_map_lidar = graph.poses().back();
+    T_map_lidar = T_map_key;
   }
 
   report.piece = pieces.count() - 1;
   report.T_odom_lidar = of_lidar(current.T_odom_lidar * T_reference_stamp);
   live.push_back({scan.stamp_ns, report.T_odom_lidar});
   fusion.add(scan.stamp_ns, static_cast<int>(key_frames.size()) - 1,
-             of_lidar(graph.poses().back().inverse() * T_map_lidar * T_reference_stamp));
+             of_lidar(T_map_key.inverse() * T_map_lidar * T_reference_stamp));
   return report;
 }
 
@@ -327,6 +331,7 @@ MapMatch Slam::State::refine(const Features& features, const Motion& motion, dou
 // The map does not hold where the sensor is now: another one begins, from the prediction.
 void Slam::State::begin_piece(ScanReport& report) {
   mapper.clear();
+  upkeep.clear();
   pieces.begin(static_cast<int>(key_frames.size()));
   in_doubt = false;
   lost_scans = 0;
@@ -334,7 +339,7 @@ void Slam::State::begin_piece(ScanReport& report) {
 }
 
 bool Slam::State::is_key_frame(const Pose& pose) const {
-  const Pose since = graph.poses().back().inverse() * pose;
+  const Pose since = T_map_key.inverse() * pose;
   return since.translation().norm() >= settings.key_frames.distance ||
          rotation_angle(since) >= radians(settings.key_frames.rotation_deg);
 }
@@ -350,15 +355,16 @@ void Slam::State::add_key_frame(const KeyFrame& key_frame, const MapMatch& match
             ? odometry_covariance(match.covariance, match.T_map_lidar.linear(),
                                   match.localizability, settings.graph)
             : broken_covariance();
-    graph.add_key_frame(
-        {number - 1, number, graph.poses().back().inverse() * match.T_map_lidar, covariance});
+    graph.add_key_frame({number - 1, number, T_map_key.inverse() * match.T_map_lidar, covariance});
   }
+  T_map_key = match.T_map_lidar;
+  upkeep.add(T_map_key);
   key_frames.add(key_frame);
   loop_closer.add_key_frame(std::move(context));
 }
 
-// Loop closing, 2.3 (5) and (6); a correction reaches the current pose and the local map at once
-// and all other poses through transform fusion.
+// Loop closing, 2.3 (5) and (6); a correction that matters here reaches the current pose and the
+// local map at once, and all other poses through transform fusion.
 void Slam::State::close_loops(ScanReport& report) {
   report.loops = loop_closer.close(key_frames, pieces, graph);
   for (LoopReport& loop : report.loops) {
@@ -367,19 +373,8 @@ void Slam::State::close_loops(ScanReport& report) {
     report.corrected |= loop.verification.verdict == Verdict::accepted;
   }
   if (!report.corrected) return;
-  previous.T_map_lidar = graph.poses().back();
-  rebuild_local_map();
-}
-
-void Slam::State::rebuild_local_map() {
-  mapper.clear();
-  const Eigen::Vector3d here = previous.T_map_lidar.translation();
-  for (std::size_t k = 0; k < key_frames.size(); ++k) {
-    const Pose& T_map_key = graph.poses()[k];
-    if (!pieces.joined(static_cast<int>(k), static_cast<int>(key_frames.size()) - 1)) continue;
-    if ((T_map_key.translation() - here).norm() > settings.mapping.radius) continue;
-    mapper.insert(key_frames.features(k), T_map_key);
-  }
+  if (upkeep.follow(graph.poses(), pieces, key_frames, mapper))
+    previous.T_map_lidar = T_map_key = graph.poses().back();
 }
 
 // All of the above has the LiDAR's axes turned level; poses of the LiDAR leave.

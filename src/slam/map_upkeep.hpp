@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/pose.hpp"
+#include "loop/key_frames.hpp"
+#include "mapping/mapper.hpp"
+#include "slam/pieces.hpp"
+
+namespace lego_loam_sc {
+
+/// Keeps the local map in step with the pose graph. A loop moves key frames and may bring others
+/// near that the map has forgotten. When one that is in the map has moved by more than its surfaces
+/// bear, the map is drawn anew from the key frames; when not, only those that are missing are added
+/// and the mapper goes on where it is. Either takes many key frames: the nearest are put in at once
+/// and the others a few with each scan, so that no scan has to wait for all of them.
+class MapUpkeep {
+ public:
+  /// `radius` of the local map, m.
+  explicit MapUpkeep(double radius) : radius_(radius) {}
+
+  /// The next key frame, whose scan the mapper has in the map at this pose.
+  void add(const Pose& T_map_key);
+
+  /// The mapper has forgotten everything.
+  void clear();
+
+  /// After the pose graph has moved. True when the map is drawn anew: then the last key frame is
+  /// where the graph has it, otherwise where the mapper has it.
+  bool follow(std::span<const Pose> T_map_key, const Pieces& pieces, const KeyFrames& key_frames,
+              Mapper& mapper);
+
+  /// With each scan: puts in some of those that are still missing.
+  void go_on(std::span<const Pose> T_map_key, const KeyFrames& key_frames, Mapper& mapper);
+
+  /// See core/state_archive.hpp.
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(in_map_, missing_);
+  }
+
+ private:
+  bool has_moved(std::span<const Pose> T_map_key) const;
+  void put_in(int count, std::span<const Pose> T_map_key, const KeyFrames& key_frames,
+              Mapper& mapper);
+
+  double radius_;
+  std::vector<std::optional<Pose>> in_map_;  // of each key frame: where it is in the map, if it is
+  std::vector<int> missing_;                 // the nearest last
+};
+
+}  // namespace lego_loam_sc
