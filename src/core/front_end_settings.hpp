@@ -178,7 +178,7 @@ struct MappingSettings {
     visit("min_strength", s.min_strength, 0.0, 1000.0,
           "constraints that must hold each direction, else it is degenerate and keeps the guess");
     visit("elevation_bias", s.elevation_bias,
-          "find and correct a common error of the beams' elevation angles on the way");
+          "find and correct errors of the elevation angles on the way: of all beams and of each row");
   }
 };
 

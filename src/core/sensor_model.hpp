@@ -22,6 +22,7 @@ struct SensorModel {
   bool motion_compensated = false;    ///< points are already moved to the stamp of their scan
   bool times_from_azimuth = false;  ///< raw sweeps without times: a point's azimuth tells its time
   double elevation_correction_deg = 0.0;  ///< added to the elevation angle of every point
+  std::vector<double> row_correction_deg;  ///< added besides to those of a row; of no row when empty
   // Mounting: all zero = unknown, then estimated from the scans. Points are handled in levelled
   // axes, R_base_lidar = R_y(pitch) R_x(roll).
   double height = 0.0;  ///< m above the ground, 0 = unknown
@@ -30,6 +31,10 @@ struct SensorModel {
 
   /// Number of beams.
   int rows() const { return static_cast<int>(elevation_deg.size()); }
+  /// deg, of the points of one row.
+  double elevation_correction_of(int row) const {
+    return elevation_correction_deg + (row_correction_deg.empty() ? 0.0 : row_correction_deg[row]);
+  }
   /// Whether its mounting turns it out of the level.
   bool tilted() const { return mount_roll_deg != 0.0 || mount_pitch_deg != 0.0; }
 };

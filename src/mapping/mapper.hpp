@@ -8,6 +8,7 @@
 #include "features/features.hpp"
 #include "mapping/elevation_bias.hpp"
 #include "mapping/local_map.hpp"
+#include "mapping/row_bias.hpp"
 #include "odometry/localizability.hpp"
 
 namespace lego_loam_sc {
@@ -50,6 +51,9 @@ class Mapper {
   /// it is not to be estimated.
   double elevation_bias() const { return elevation_bias_.value(); }
 
+  /// rad; the same of each row beside what they have in common, see RowBias; empty when unknown.
+  const std::vector<double>& row_bias() const { return row_bias_.values(); }
+
   /// Adds features that are already de-skewed.
   void insert(const Features& deskewed, const Pose& T_map_lidar);
 
@@ -63,7 +67,7 @@ class Mapper {
   /// See core/state_archive.hpp.
   template <class Archive>
   void state(Archive& archive) {
-    archive(map_, elevation_bias_, spacing_, first_level_, last_insertion_, last_eviction_);
+    archive(map_, elevation_bias_, row_bias_, spacing_, first_level_, last_insertion_, last_eviction_);
   }
 
  private:
@@ -73,6 +77,7 @@ class Mapper {
   double range_noise_;
   LocalMap map_;
   ElevationBias elevation_bias_;
+  RowBias row_bias_;
   double spacing_;       // m, of the points that are matched
   int first_level_ = 0;  // of the map: the finest voxels are for small spaces
   std::optional<Eigen::Vector3d> last_insertion_;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -23,6 +24,7 @@ struct Correspondence {
   double weight = 1.0;  ///< 1 / variance of the distance, 1/m^2
   double range_difference = 0.0;  ///< m; horizontal range of the point less that of the plane
   double age = 0.0;               ///< s after the reference time at which the point was seen
+  std::uint16_t row = 0;          ///< of the sensor that saw the point
 };
 
 /// Distance of the transformed point from its plane, line or point, m, >= 0.

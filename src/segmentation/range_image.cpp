@@ -109,13 +109,14 @@ RangeImage project(const Scan& scan, const SensorModel& sensor) {
   for (int r = 0; r <= image.rows; ++r)
     image.row_begin[r] = begin[static_cast<std::size_t>(r) * image.columns];
 
-  const float sine = static_cast<float>(std::sin(radians(sensor.elevation_correction_deg)));
-  const float cosine = static_cast<float>(std::cos(radians(sensor.elevation_correction_deg)));
   const Eigen::Matrix3f R_level_lidar = R_base_lidar(sensor).cast<float>();
   const auto by_azimuth = [&](std::uint32_t a, std::uint32_t b) {
     return std::pair(azimuth[a], a) < std::pair(azimuth[b], b);
   };
   for (int r = 0; r < image.rows; ++r) {
+    const double correction = radians(sensor.elevation_correction_of(r));
+    const float sine = static_cast<float>(std::sin(correction));
+    const float cosine = static_cast<float>(std::cos(correction));
     for (int c = 0; c < image.columns; ++c) {
       const std::size_t p = static_cast<std::size_t>(r) * image.columns + c;
       if (begin[p + 1] - begin[p] > 1)

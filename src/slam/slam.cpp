@@ -106,7 +106,8 @@ struct Slam::State {
 
   template <class Archive>
   void state(Archive& archive) {
-    archive(sensor.mount_roll_deg, sensor.mount_pitch_deg, sensor.elevation_correction_deg, clock,
+    archive(sensor.mount_roll_deg, sensor.mount_pitch_deg, sensor.elevation_correction_deg,
+            sensor.row_correction_deg, clock,
             height, odometry, mapper, loop_closer, graph, pieces, upkeep, T_map_key, fusion, key_frames, scans,
             previous, twist, speed, travelled, in_doubt, lost_scans);
     archive.grown(scan_of_key_frame);
@@ -302,6 +303,11 @@ MapMatch Slam::State::refine(const Features& features, const Motion& motion, dou
     report.elevation_bias_deg = sensor.tilted() ? 0.0 : degrees(mapper.elevation_bias());
     sensor.elevation_correction_deg =
         given_sensor.elevation_correction_deg + report.elevation_bias_deg;
+    if (!sensor.tilted()) {
+      sensor.row_correction_deg.assign(sensor.elevation_deg.size(), 0.0);
+      for (std::size_t row = 0; row < mapper.row_bias().size(); ++row)
+        sensor.row_correction_deg[row] = degrees(mapper.row_bias()[row]);
+    }
     report.map_points = match.points;
     report.map_matches = match.matches;
     report.map_iterations = match.iterations;
