@@ -28,44 +28,6 @@ class SimWorld : public testing::TestWithParam<std::string_view> {};
 INSTANTIATE_TEST_SUITE_P(All, SimWorld, testing::Values("parking", "street"),
                          [](const auto& name) { return std::string(name.param); });
 
-TEST_P(SimWorld, IsDecidedByItsSeed) {
-  const World first = make_world(GetParam(), 3), again = make_world(GetParam(), 3);
-  EXPECT_EQ(first.mesh.vertices, again.mesh.vertices);
-  EXPECT_EQ(first.mesh.triangles, again.mesh.triangles);
-  EXPECT_EQ(first.mesh.reflectivity, again.mesh.reflectivity);
-  EXPECT_TRUE(first.motion.pose(10 * second).isApprox(again.motion.pose(10 * second), 0.0));
-  EXPECT_NE(first.mesh.vertices, make_world(GetParam(), 4).mesh.vertices);
-}
-
-TEST_P(SimWorld, MeshIsSound) {
-  const Mesh mesh = make_world(GetParam(), 1).mesh;
-  EXPECT_EQ(mesh.triangles.size(), mesh.reflectivity.size());
-  EXPECT_LT(mesh.triangles.size(), 1'000'000u);
-  for (const auto& triangle : mesh.triangles)
-    for (const std::uint32_t vertex : triangle) ASSERT_LT(vertex, mesh.vertices.size());
-  for (const Eigen::Vector3f& vertex : mesh.vertices) ASSERT_TRUE(vertex.allFinite());
-  EXPECT_TRUE(std::ranges::all_of(mesh.reflectivity, [](float r) { return r > 0 && r <= 1; }));
-}
-
-TEST_P(SimWorld, LeavesTheVehicleRoomOnFirmGround) {
-  World world = make_world(GetParam(), 1);
-  const RayCaster caster(std::move(world.mesh));
-  for (std::int64_t t = 0; t < world.motion.duration_ns; t += second / 2) {
-    const Pose T_world_vehicle = world.motion.pose(t);
-    const Vector3d sensor = T_world_vehicle * Vector3d(0, 0, world.sensor_height);
-    const auto ground = caster.cast(sensor, -T_world_vehicle.linear().col(2), 10.0);
-    ASSERT_TRUE(ground) << "no ground at " << sensor.transpose();
-    EXPECT_NEAR(ground->range, world.sensor_height, 0.06) << "at " << sensor.transpose();
-    for (int deg = 0; deg < 360; deg += 5) {
-      const Vector3d direction(std::cos(radians(deg)), std::sin(radians(deg)), 0.0);
-      for (const double height : {0.5, world.sensor_height})
-        EXPECT_FALSE(caster.cast(T_world_vehicle * Vector3d(0, 0, height),
-                                 T_world_vehicle.linear() * direction, 1.4))
-            << "an obstacle at " << sensor.transpose() << ", " << deg << " deg";
-    }
-  }
-}
-
 TEST_P(SimWorld, HasStructureOnAllSidesOfTheVehicle) {
   World world = make_world(GetParam(), 1);
   const RayCaster caster(std::move(world.mesh));
