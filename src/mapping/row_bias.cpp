@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 
 namespace lego_loam_sc {
 namespace {
@@ -18,32 +19,38 @@ const double kLargest = radians(0.3);
 
 void RowBias::add(std::span<const Correspondence> correspondences, const Pose& T_map_lidar,
                   double scale) {
+  struct Sums {
+    double gradient = 0.0;
+    double information = 0.0;
+  };
   const Eigen::Vector3d up = T_map_lidar.linear().col(2);
-  std::vector<double> gradient;
+  std::vector<Sums> rows(values_.size());
+  Sums all;
   for (const Correspondence& c : correspondences) {
     if (c.kind != Correspondence::Kind::plane) continue;
-    if (c.row >= gradient.size()) gradient.resize(c.row + 1u, 0.0);
-    if (c.row >= values_.size()) {
-      values_.resize(c.row + 1u, 0.0);
-      information_.resize(c.row + 1u, 0.0);
-    }
+    if (c.row >= rows.size()) rows.resize(c.row + 1u);
     const double d = c.direction.dot(T_map_lidar * c.point - c.anchor);
     const double derivative = c.direction.dot(up) * c.point.head<2>().norm();
     const double weight = robust_weight(c, d, scale);
-    gradient[c.row] += weight * derivative * d;
-    information_[c.row] += weight * derivative * derivative;
+    for (Sums* sums : {&rows[c.row], &all}) {
+      sums->gradient += weight * derivative * d;
+      sums->information += weight * derivative * derivative;
+    }
   }
-  for (std::size_t row = 0; row < gradient.size(); ++row)
-    values_[row] -= gradient[row] / (kFirstInformation + information_[row]);
+  if (!(all.information > 0.0)) return;
 
-  double sum = 0.0;
-  double weights = 0.0;
-  for (std::size_t row = 0; row < values_.size(); ++row) {
-    sum += information_[row] * values_[row];
-    weights += information_[row];
+  values_.resize(rows.size(), 0.0);
+  information_.resize(rows.size(), 0.0);
+  const double common = all.gradient / all.information;
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    information_[row] += rows[row].information;
+    values_[row] -= (rows[row].gradient - common * rows[row].information) /
+                    (kFirstInformation + information_[row]);
   }
-  if (!(weights > 0.0)) return;
-  for (double& value : values_) value = std::clamp(value - sum / weights, -kLargest, kLargest);
+  const double mean =
+      std::inner_product(values_.begin(), values_.end(), information_.begin(), 0.0) /
+      std::accumulate(information_.begin(), information_.end(), 0.0);
+  for (double& value : values_) value = std::clamp(value - mean, -kLargest, kLargest);
 }
 
 }  // namespace lego_loam_sc

@@ -25,14 +25,23 @@ std::vector<std::uint8_t> usable_points(const Scan& scan, const SensorModel& sen
   return usable;
 }
 
-// Rotates a point about the horizontal axis across its direction, which adds `tangent` (of a small
-// angle) to its elevation and keeps its range. Elevation bias of KITTI's scans: see docs/sensors.md.
-Eigen::Vector3f raise(const Eigen::Vector3f& p, float sine, float cosine) {
-  const float across = std::sqrt(p.x() * p.x() + p.y() * p.y());
-  if (across <= 0.0f) return p;
-  const float scale = (across * cosine - p.z() * sine) / across;
-  return {p.x() * scale, p.y() * scale, p.z() * cosine + across * sine};
-}
+// Adds a small angle to the elevation of the points of a row, which keep their range. Elevation bias
+// of KITTI's scans: see docs/sensors.md. All points of a row lie at nearly the row's own elevation:
+// with that a point takes no root and no division, and is off by a hundred thousandth of its range.
+class Raise {
+ public:
+  Raise(double elevation, double angle)
+      : along_(static_cast<float>(std::cos(elevation + angle) / std::cos(elevation))),
+        up_(static_cast<float>(std::sin(elevation + angle) - std::sin(elevation))) {}
+
+  Eigen::Vector3f operator()(const Eigen::Vector3f& p, float range) const {
+    return {p.x() * along_, p.y() * along_, p.z() + range * up_};
+  }
+
+ private:
+  float along_;
+  float up_;
+};
 
 // Seconds between the start of the sweep and the time when the sensor looked at `azimuth`.
 float time_of_azimuth(float azimuth, const SensorModel& sensor) {
@@ -114,9 +123,8 @@ RangeImage project(const Scan& scan, const SensorModel& sensor) {
     return std::pair(azimuth[a], a) < std::pair(azimuth[b], b);
   };
   for (int r = 0; r < image.rows; ++r) {
-    const double correction = radians(sensor.elevation_correction_of(r));
-    const float sine = static_cast<float>(std::sin(correction));
-    const float cosine = static_cast<float>(std::cos(correction));
+    const Raise raise(radians(sensor.elevation_deg[r]),
+                      radians(sensor.elevation_correction_of(r)));
     for (int c = 0; c < image.columns; ++c) {
       const std::size_t p = static_cast<std::size_t>(r) * image.columns + c;
       if (begin[p + 1] - begin[p] > 1)
@@ -124,9 +132,9 @@ RangeImage project(const Scan& scan, const SensorModel& sensor) {
       std::int32_t nearest = -1;
       for (std::uint32_t k = begin[p]; k < begin[p + 1]; ++k) {
         const Eigen::Vector3f& point = scan.points[source[k]];
-        image.points[k] = sine == 0.0f ? point : raise(point, sine, cosine);
-        if (sensor.tilted()) image.points[k] = R_level_lidar * image.points[k];
         image.range[k] = point.norm();
+        image.points[k] = raise(point, image.range[k]);
+        if (sensor.tilted()) image.points[k] = R_level_lidar * image.points[k];
         image.column[k] = static_cast<std::uint16_t>(c);
         if (!scan.intensity.empty()) image.intensity[k] = scan.intensity[source[k]];
         if (nearest < 0 || image.range[k] < image.range[nearest])
