@@ -202,7 +202,7 @@ Beams beams_of_storage_order(std::span<const Scan> scans) {
   for (std::size_t s = 0; s < scans.size(); ++s)
     if (rings[s] != usual) labels[s].assign(labels[s].size(), -1);
 
-  Beams beams = measure(scans, labels);
+  const Beams beams = measure(scans, labels);
   return are_rings(beams) ? beams : Beams{};
 }
 
@@ -226,9 +226,8 @@ std::optional<std::string> fault_of_rings(const Beams& rings) {
   const auto widest = std::ranges::max_element(rings.spread_deg);
   return "half of the points of one ring spread over " + to_fixed(*widest, 1) +
          " degrees of elevation, so that the ring field numbers no beams: either the sensor has "
-         "none "
-         "that are fixed, as a Livox or another that does not spin, or the points were turned into "
-         "another frame; LeGO-LOAM-SC needs the points of a spinning LiDAR in its own frame";
+         "none that are fixed, as a Livox or another that does not spin, or the points were turned "
+         "into another frame; LeGO-LOAM-SC needs the points of a spinning LiDAR in its own frame";
 }
 
 }  // namespace lego_loam_sc

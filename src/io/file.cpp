@@ -32,8 +32,10 @@ std::string read_file(const std::filesystem::path& path) {
   std::string bytes(expected + 1, '\0');
   std::size_t used = 0;
   for (;;) {
-    used += std::fread(bytes.data() + used, 1, bytes.size() - used, file.get());
-    if (used < bytes.size()) break;
+    const std::size_t room = bytes.size() - used;
+    const std::size_t got = std::fread(bytes.data() + used, 1, room, file.get());
+    used += got;
+    if (got < room) break;
     if (used > expected + kMostBeyondSize)
       throw InputError(path.string() +
                        " gives more bytes than it has; a file is expected, no device");
