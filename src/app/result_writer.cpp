@@ -36,7 +36,7 @@ constexpr const char* kScansHeader =
 
 constexpr const char* kLoopsHeader =
     "query,match,query_scan,match_scan,detector,distance,yaw_deg,overlap,rmse_m,x,y,z,roll_deg,"
-    "pitch_deg,loop_yaw_deg,verdict\n";
+    "pitch_deg,loop_yaw_deg,added,verdict\n";
 
 // Fields of one line of a CSV file.
 class CsvLine {
@@ -84,7 +84,7 @@ std::string loop_line(const LoopReport& r) {
        << to_fixed(degrees(r.candidate.yaw), 2) << to_fixed(v.overlap, 3) << to_fixed(v.rmse, 4)
        << to_fixed(t.x(), 4) << to_fixed(t.y(), 4) << to_fixed(t.z(), 4)
        << to_fixed(degrees(rpy.x()), 3) << to_fixed(degrees(rpy.y()), 3)
-       << to_fixed(degrees(rpy.z()), 3) << to_string(v.verdict);
+       << to_fixed(degrees(rpy.z()), 3) << (r.added ? 1 : 0) << to_string(v.verdict);
   return line.text();
 }
 

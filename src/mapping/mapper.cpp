@@ -251,7 +251,8 @@ MapMatch Mapper::refine(const Features& features, const ScanGuess& guess) {
       sweep_normal_equations(correspondences, pose, Vector6::Zero(), scale);
   prior.add_to(solution, pose);
   velocity_prior.add_to(solution, Sweep{pose}, twist);
-  if (settings_.elevation_bias) {
+  // Where the pose is a guess the residuals are as well.
+  if (settings_.elevation_bias && !match.localizability.degenerate()) {
     elevation_bias_.add(correspondences, pose, scale, solution);
     row_bias_.add(correspondences, pose, scale);
   }

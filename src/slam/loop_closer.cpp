@@ -17,6 +17,9 @@ namespace {
 // Mahalanobis distance of a loop from the optimised graph above which it is taken out again: of six
 // degrees of freedom a true one exceeds it once in ten million.
 constexpr double kContradiction = 7.0;
+// And that below which a loop tells the graph nothing new: whoever drives the same ways all day would
+// otherwise let the graph grow without end.
+constexpr double kNothingNew = 0.5;
 // Between two maps there is no pose graph to contradict a candidate. So more of them are tried, and
 // more must agree: the overlap of a loop that joins them.
 constexpr std::size_t kJoinCandidates = 3;
@@ -53,6 +56,13 @@ double inconsistency(const Pose& T_match_query, const Pose& expected, double tra
   const double sigma_rotation = radians(settings.drift_deg_per_metre) * travelled;
   return std::hypot(difference.translation().norm() / sigma,
                     rotation_angle(difference) / sigma_rotation);
+}
+
+// Of a loop from the present poses of the graph, in sigmas of the loop.
+double inconsistency(const PoseEdge& loop, const PoseGraph& graph) {
+  const Pose present = graph.poses()[loop.from].inverse() * graph.poses()[loop.to];
+  const Vector6 difference = log_se3(loop.T_from_to.inverse() * present);
+  return std::sqrt(difference.dot(loop.covariance.llt().solve(difference)));
 }
 
 }  // namespace
@@ -164,14 +174,21 @@ std::vector<LoopReport> LoopCloser::close(const KeyFrames& key_frames, Pieces& p
     LoopVerification& verification = report.verification;
     if (verification.verdict != Verdict::accepted) continue;
 
-    graph.add_loop({candidate.match, candidate.query, verification.T_match_query,
-                    loop_covariance(verification.covariance, verification.T_match_query.linear(),
-                                    graph_settings_)});
+    const PoseEdge loop{candidate.match, candidate.query, verification.T_match_query,
+                        loop_covariance(verification.covariance,
+                                        verification.T_match_query.linear(), graph_settings_)};
+    if (!joins && inconsistency(loop, graph) < kNothingNew) {
+      last_loop_travelled_ = now;
+      break;
+    }
+    report.added = true;
+    graph.add_loop(loop);
     graph.optimise();
     const std::size_t added = graph.loop_edges().size() - 1;
     if (graph.loop_chi(added) > kContradiction) {
       graph.remove_loop(added);
       graph.optimise();
+      report.added = false;
       verification.verdict = Verdict::contradicted;
       continue;
     }

@@ -18,6 +18,7 @@ struct LoopReport {
   int query_scan = 0;
   int match_scan = 0;
   LoopVerification verification;
+  bool added = false;  ///< to the pose graph, which knew the other accepted loops already
 };
 
 /// The stages of paper figure 4, for the times that they take.

@@ -373,13 +373,14 @@ void Slam::State::add_key_frame(const KeyFrame& key_frame, const MapMatch& match
 // local map at once, and all other poses through transform fusion.
 void Slam::State::close_loops(ScanReport& report) {
   report.loops = loop_closer.close(key_frames, pieces, graph);
+  bool accepted = false;
   for (LoopReport& loop : report.loops) {
     loop.query_scan = scan_of_key_frame[loop.candidate.query];
     loop.match_scan = scan_of_key_frame[loop.candidate.match];
-    report.corrected |= loop.verification.verdict == Verdict::accepted;
+    report.corrected |= loop.added;
+    accepted |= loop.verification.verdict == Verdict::accepted;
   }
-  if (!report.corrected) return;
-  if (upkeep.follow(graph.poses(), pieces, key_frames, mapper))
+  if (accepted && upkeep.follow(graph.poses(), pieces, key_frames, mapper))
     previous.T_map_lidar = T_map_key = graph.poses().back();
 }
 

@@ -74,7 +74,8 @@ void bind_reports(nb::module_& module) {
       .def_prop_ro(
           "distance", [](const LoopReport& r) { return r.candidate.distance; },
           "D of equation (5), or m for the radius search")
-      .def_ro("verification", &LoopReport::verification);
+      .def_ro("verification", &LoopReport::verification)
+      .def_ro("added", &LoopReport::added, "to the pose graph, to which it was news");
 
   using R = ScanReport;
   nb::class_<R>(module, "ScanReport", "What became of a scan; the columns of scans.csv.")
