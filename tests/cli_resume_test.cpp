@@ -100,7 +100,8 @@ TEST(Resume, WithOtherSettingsScansOrSensorIsRefused) {
   expect_one_sentence(shell("$P run all --sensor other.yaml" + resume), {"part", "sensor"});
   expect_one_sentence(shell("$P run all --first 3" + resume), {"part", "INPUT"});
   expect_one_sentence(shell("$P run all --count 2" + resume), {"part", "INPUT"});
-  EXPECT_EQ(read_text(shell.folder() / "part/scans.csv"), table);
+  // The rows behind the checkpoint may be gone.
+  EXPECT_TRUE(table.starts_with(read_text(shell.folder() / "part/scans.csv")));
   shell.must(kRun + " --resume");
   expect_same_results(shell.folder() / "part", shell.folder() / "whole");
 }

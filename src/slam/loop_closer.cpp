@@ -17,9 +17,11 @@ namespace {
 // Mahalanobis distance of a loop from the optimised graph above which it is taken out again: of six
 // degrees of freedom a true one exceeds it once in ten million.
 constexpr double kContradiction = 7.0;
-// And that below which a loop tells the graph nothing new: whoever drives the same ways all day would
-// otherwise let the graph grow without end.
+// And that below which a loop tells the graph nothing new, when the last one was found no longer ago
+// than this, m: a visit has to be tied to the one before, but whoever drives the same ways all day
+// would let the graph grow without end.
 constexpr double kNothingNew = 0.5;
+constexpr double kSameVisit = 20.0;
 // Between two maps there is no pose graph to contradict a candidate. So more of them are tried, and
 // more must agree: the overlap of a loop that joins them.
 constexpr std::size_t kJoinCandidates = 3;
@@ -177,7 +179,8 @@ std::vector<LoopReport> LoopCloser::close(const KeyFrames& key_frames, Pieces& p
     const PoseEdge loop{candidate.match, candidate.query, verification.T_match_query,
                         loop_covariance(verification.covariance,
                                         verification.T_match_query.linear(), graph_settings_)};
-    if (!joins && inconsistency(loop, graph) < kNothingNew) {
+    if (!joins && now - last_loop_travelled_ < kSameVisit &&
+        inconsistency(loop, graph) < kNothingNew) {
       last_loop_travelled_ = now;
       break;
     }
