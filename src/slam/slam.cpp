@@ -325,8 +325,12 @@ MapMatch Slam::State::refine(const Features& features, const Motion& motion, dou
     report.status = Status::odometry_only;
   }
 
-  in_doubt = (in_doubt || !motion.solved) && !confirms(match);
-  if (in_doubt) {
+  // A few scans after the last that was placed the odometry alone may tell where it is, as long as
+  // the map does not contradict it.
+  const bool told = motion.solved && !in_doubt && (lost_scans == 0 || !match.matched);
+  if (confirms(match)) {
+    in_doubt = false;
+  } else if (!told) {
     report.status = Status::lost;
     match = {};
     match.T_map_lidar = previous.T_map_lidar * predicted;
