@@ -209,7 +209,7 @@ void run(const Options& options, int& exit_code) {
   Checkpoint checkpoint(folder);
   ResultWriter writer(folder, sensor, settings);
   Slam slam(sensor, settings, std::max(options.threads - 1, 1), {},
-            std::make_shared<BlobFile>(folder / "key_frames.bin"));
+            std::make_shared<BlobFile>(folder / "key_frame_points.bin"));
   catch_interrupts();
   Bookmark mark{to_yaml(settings), to_yaml(sensor), 0, scans.back().stamp_ns, {}, 0.0};
   if (checkpoint.holds_state()) {

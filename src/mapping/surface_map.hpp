@@ -25,7 +25,7 @@ struct Surface {
 struct SurfaceMapSettings {
   Surface::Kind kind = Surface::Kind::plane;  ///< what is fitted
   double voxel_size = 0.5;                    ///< m
-  double planarity = 0.1;                     ///< largest ratio of the eigenvalues, see surface_at
+  double planarity = 0.1;                     ///< largest ratio of the eigenvalues, see surface_of
 };
 
 /// No block of any map: the corners of the grid stay free, see voxel_table.hpp.
