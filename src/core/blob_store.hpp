@@ -20,9 +20,11 @@ class BlobStore {
   virtual void append(std::span<const std::byte> bytes) = 0;
   /// Fills `bytes` with those from `offset` on, which must have been appended at once.
   virtual void read(std::uint64_t offset, std::span<std::byte> bytes) const = 0;
+  /// Forgets all bytes.
   virtual void clear() = 0;
 };
 
+/// A store in memory.
 class MemoryBlobs : public BlobStore {
  public:
   std::uint64_t size() const override { return bytes_.size(); }
@@ -32,6 +34,7 @@ class MemoryBlobs : public BlobStore {
   void read(std::uint64_t offset, std::span<std::byte> bytes) const override {
     if (!bytes.empty()) std::memcpy(bytes.data(), bytes_.data() + offset, bytes.size());
   }
+  /// Forgets all bytes.
   void clear() override { bytes_.clear(); }
 
  private:

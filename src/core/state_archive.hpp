@@ -59,6 +59,7 @@ struct Growth {
 /// Elements of each growing container, in the order in which they are listed.
 using GrownCounts = std::vector<std::size_t>;
 
+/// Writes the state of objects, member by member.
 class StateWriter {
  public:
   static constexpr bool kReads = false;
@@ -66,11 +67,13 @@ class StateWriter {
   /// `written`: what the writers before have given of the growing containers.
   explicit StateWriter(GrownCounts written = {}) : written_(std::move(written)) {}
 
+  /// Writes these values.
   template <class... Values>
   void operator()(const Values&... values) {
     (write(values), ...);
   }
 
+  /// Writes what has come to a container that only grows.
   template <class T>
   void grown(const std::vector<T>& values) {
     grown<T>(values.size(), [&](std::size_t i) -> const T& { return values[i]; }, [](T&&) {});
@@ -91,6 +94,7 @@ class StateWriter {
     counts_.push_back(size);
   }
 
+  /// Of all values that were written.
   const std::string& bytes() const { return bytes_; }
   const std::string& growth() const {
     return growth_;
@@ -154,6 +158,7 @@ class StateWriter {
   GrownCounts counts_;
 };
 
+/// Reads a state from the bytes of a StateWriter, members in the same order.
 class StateReader {
  public:
   static constexpr bool kReads = true;
@@ -161,11 +166,13 @@ class StateReader {
   /// The bytes of a writer, and the growth up to and with its own.
   StateReader(std::string_view bytes, std::string_view growth) : rest_(bytes), growth_(growth) {}
 
+  /// Reads these values.
   template <class... Values>
   void operator()(Values&... values) {
     (read(values), ...);
   }
 
+  /// Reads a container that only grows, whole.
   template <class T>
   void grown(std::vector<T>& values) {
     values.clear();
@@ -174,6 +181,7 @@ class StateReader {
         [&](T&& value) { values.push_back(std::move(value)); });
   }
 
+  /// The same for any container: `add(element)` takes the next.
   template <class T, class Get, class Add>
   void grown(std::size_t, Get&&, Add&& add) {
     const std::size_t number = counts_.size();

@@ -13,6 +13,7 @@ struct StampedPose {
   std::int64_t stamp_ns = 0;
   Pose pose = Pose::Identity();
 
+  /// See core/state_archive.hpp.
   template <class Archive>
   void state(Archive& archive) {
     archive(stamp_ns, pose);

@@ -13,6 +13,7 @@
 
 namespace lego_loam_sc {
 
+/// A point of a feature set.
 struct FeaturePoint {
   Eigen::Vector3f position;  ///< LiDAR frame at the time of the point, m
   float age = 0.0f;          ///< s after the scan's reference time
@@ -21,6 +22,7 @@ struct FeaturePoint {
   std::uint16_t column = 0;
   Label label = Label::segment;
 
+  /// See core/state_archive.hpp.
   template <class Archive>
   void state(Archive& archive) {
     archive(position, age, intensity, row, column, label);

@@ -24,6 +24,7 @@ struct PoseEdge {
   Pose T_from_to = Pose::Identity();
   Matrix6 covariance = Matrix6::Identity();
 
+  /// See core/state_archive.hpp.
   template <class Archive>
   void state(Archive& archive) {
     archive(from, to, T_from_to, covariance);

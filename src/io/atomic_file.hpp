@@ -12,14 +12,17 @@ namespace lego_loam_sc {
 /// InputError when the disk is full or the folder cannot be written.
 class AtomicFile {
  public:
+  /// The file at `path` stays as it is until `commit`.
   explicit AtomicFile(std::filesystem::path path);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
+  /// Adds bytes at the end.
   void write(std::string_view bytes);
   /// Puts bytes over those that were written first.
   void overwrite_beginning(std::string_view bytes);
+  /// Moves the file into its place.
   void commit();
 
  private:

@@ -18,8 +18,10 @@ enum class CloudFormat { ply, pcd };
 /// x y z (m), intensity (float32) and key_frame (int32) of points that come bit by bit.
 class CloudFile {
  public:
+  /// Throws InputError when it cannot be made.
   CloudFile(const std::filesystem::path& path, CloudFormat format);
 
+  /// Adds points at the end.
   void add(std::span<const MapPoint> points);
   /// Only now the file is there.
   void commit();

@@ -22,6 +22,7 @@ struct PackedPoint {
            Eigen::Vector3f(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z));
   }
 
+  /// See core/state_archive.hpp.
   template <class Archive>
   void state(Archive& archive) {
     archive(x, y, z, intensity.x);
@@ -41,6 +42,7 @@ struct KeyFrame {
   std::vector<PackedPoint> scattered;  ///< of the scattered points
   std::vector<PackedPoint> others;     ///< further points of ground and clusters, for the map
 
+  /// See core/state_archive.hpp.
   template <class Archive>
   void state(Archive& archive) {
     archive(reference_ns, travelled, planars, edges, scattered, others);

@@ -18,12 +18,16 @@ class KeyFrames {
   /// In memory without a store; empties it.
   explicit KeyFrames(std::shared_ptr<BlobStore> store = {});
 
+  /// Adds the next key frame.
   void add(const KeyFrame& key_frame);
 
+  /// Number of key frames.
   std::size_t size() const { return entries_.size(); }
+  /// Reference time of key frame `k`.
   std::int64_t reference_ns(std::size_t k) const { return entries_[k].reference_ns; }
   double travelled(std::size_t k) const { return entries_[k].travelled; }  ///< m
 
+  /// Loads key frame `k`.
   KeyFrame operator[](std::size_t k) const;
   /// unpack() of a key frame, whose other points are left alone.
   Features features(std::size_t k) const;

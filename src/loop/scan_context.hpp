@@ -18,6 +18,7 @@ struct ScanContext {
   std::vector<float> occupied;  ///< one per sector: 1 where the column holds a point, else 0
   std::vector<float> ring_key;  ///< one per ring, from the nearest to the farthest, m: K of (7)
 
+  /// See core/state_archive.hpp.
   template <class Archive>
   void state(Archive& archive) {
     archive(rings, sectors, columns, occupied, ring_key);

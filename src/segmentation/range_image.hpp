@@ -33,7 +33,9 @@ struct RangeImage {
   std::int64_t reference_ns = 0;  ///< middle of the sweep: the time that points are de-skewed to.
                                   ///< There an error of the velocity has no effect on the pose.
 
+  /// Number of points.
   std::size_t size() const { return points.size(); }
+  /// The nearest point of a pixel or -1.
   std::int32_t pixel(int row, int column_index) const {
     return pixels[static_cast<std::size_t>(row) * columns + column_index];
   }
