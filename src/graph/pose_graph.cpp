@@ -223,7 +223,10 @@ const std::vector<PoseEdge>& PoseGraph::loop_edges() const {
 }
 
 double PoseGraph::loop_chi(std::size_t loop_index) const {
-  const PoseEdge& loop = loop_edges().at(loop_index);
+  return chi(loop_edges().at(loop_index));
+}
+
+double PoseGraph::chi(const PoseEdge& loop) const {
   const Pose estimate = poses()[loop.from].inverse() * poses()[loop.to];
   const Vector6 residual = log_se3(loop.T_from_to.inverse() * estimate);
   return std::sqrt(residual.dot(loop.covariance.llt().solve(residual)));

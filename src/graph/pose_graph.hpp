@@ -81,6 +81,9 @@ class PoseGraph {
   /// freedom: above 4.7 once in a thousand true loops.
   double loop_chi(std::size_t loop_index) const;
 
+  /// The same of a loop that the graph need not hold.
+  double chi(const PoseEdge& loop) const;
+
   /// Covariance of T_a_b along the odometry chain, in the convention of PoseEdge (axes of b). An
   /// upper bound of the uncertainty: loops can only lower it. Takes time in proportion to |b - a|.
   Matrix6 relative_covariance(int a, int b) const;

@@ -60,13 +60,6 @@ double inconsistency(const Pose& T_match_query, const Pose& expected, double tra
                     rotation_angle(difference) / sigma_rotation);
 }
 
-// Of a loop from the present poses of the graph, in sigmas of the loop.
-double inconsistency(const PoseEdge& loop, const PoseGraph& graph) {
-  const Pose present = graph.poses()[loop.from].inverse() * graph.poses()[loop.to];
-  const Vector6 difference = log_se3(loop.T_from_to.inverse() * present);
-  return std::sqrt(difference.dot(loop.covariance.llt().solve(difference)));
-}
-
 }  // namespace
 
 LoopCloser::LoopCloser(const LoopSettings& settings, const GraphSettings& graph, double range_noise,
@@ -180,7 +173,7 @@ std::vector<LoopReport> LoopCloser::close(const KeyFrames& key_frames, Pieces& p
                         loop_covariance(verification.covariance,
                                         verification.T_match_query.linear(), graph_settings_)};
     if (!joins && now - last_loop_travelled_ < kSameVisit &&
-        inconsistency(loop, graph) < kNothingNew) {
+        graph.chi(loop) < kNothingNew) {
       last_loop_travelled_ = now;
       break;
     }
