@@ -131,8 +131,7 @@ TEST(Run, CountsInItsFilesAgree) {
     EXPECT_EQ(split(line, ' ').size(), line.starts_with("V") ? 9U : 31U);
   }
   EXPECT_EQ(vertices, key_frames);
-  const auto added_column =
-      std::find(loops[0].begin(), loops[0].end(), "added") - loops[0].begin();
+  const auto added_column = std::find(loops[0].begin(), loops[0].end(), "added") - loops[0].begin();
   const auto added = std::count_if(loops.begin() + 1, loops.end(),
                                    [&](const auto& row) { return row[added_column] == "1"; });
   EXPECT_GT(added, 0);

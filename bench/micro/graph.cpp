@@ -56,8 +56,8 @@ Cost drive() {
     if (k >= kKeyFrames - 1000) cost.key_frame += seconds_since(begin) / 1000.0;
     if (k < kRound || k % kLoopEvery != 0) continue;
     begin = std::chrono::steady_clock::now();
-    graph.add_loop({k - kRound, k, noisy(random, Pose::Identity(), 0.05, 3e-3),
-                    covariance(0.05, 3e-3)});
+    graph.add_loop(
+        {k - kRound, k, noisy(random, Pose::Identity(), 0.05, 3e-3), covariance(0.05, 3e-3)});
     graph.optimise();
     const double seconds = seconds_since(begin);
     cost.worst_loop = std::max(cost.worst_loop, seconds);
@@ -71,14 +71,17 @@ Cost drive() {
 }  // namespace
 
 void add_graph_benchmarks() {
-  benchmark::RegisterBenchmark("graph", [](benchmark::State& state) {
-    Cost cost;
-    for (auto _ : state) cost = drive();
-    state.counters["loops"] = cost.loops;
-    state.counters["key_frame_ms"] = 1e3 * cost.key_frame;
-    state.counters["mean_loop_ms"] = 1e3 * cost.mean_loop;
-    state.counters["worst_loop_ms"] = 1e3 * cost.worst_loop;
-  })->Unit(benchmark::kSecond)->Iterations(1);
+  benchmark::RegisterBenchmark("graph",
+                               [](benchmark::State& state) {
+                                 Cost cost;
+                                 for (auto _ : state) cost = drive();
+                                 state.counters["loops"] = cost.loops;
+                                 state.counters["key_frame_ms"] = 1e3 * cost.key_frame;
+                                 state.counters["mean_loop_ms"] = 1e3 * cost.mean_loop;
+                                 state.counters["worst_loop_ms"] = 1e3 * cost.worst_loop;
+                               })
+      ->Unit(benchmark::kSecond)
+      ->Iterations(1);
 }
 
 }  // namespace lego_loam_sc

@@ -125,8 +125,8 @@ void add_matching(const Fixture& f) {
   const auto mapper = std::make_shared<Mapper>(f.settings.mapping, f.sensor.range_noise);
   mapper->insert(f.before().features, Pose::Identity());
   add("map_match", [&f, mapper] {
-    return mapper->refine(f.now().features, {Pose::Identity(), Pose::Identity(), Pose::Identity(),
-                                             f.sensor.period});
+    return mapper->refine(f.now().features,
+                          {Pose::Identity(), Pose::Identity(), Pose::Identity(), f.sensor.period});
   });
   add("map_insert", [&f, mapper] {
     mapper->insert(f.before().features, Pose::Identity());

@@ -272,8 +272,8 @@ std::string ResultWriter::finish(const Slam& slam, const DatasetFacts& dataset,
     if (status != to_string(Status::ok))
       report += std::to_string(count) + " scans " + status + "\n";
   if (stamp_jumps_ > 0)
-    report += "jumps of the stamps that were bridged: " + std::to_string(stamp_jumps_) +
-              first_jump_;
+    report +=
+        "jumps of the stamps that were bridged: " + std::to_string(stamp_jumps_) + first_jump_;
   if (slam.maps() > 1)
     report += "the way was lost: " + std::to_string(slam.maps()) +
               " maps that no loop joins, where they lie to each other is a guess\n";

@@ -51,8 +51,8 @@ void CondensedChain::condense_moved(const std::vector<PoseEdge>& odometry) {
 void CondensedChain::expand(const gtsam::Values& ends) {
   for (Section& section : sections_) {
     const Stretch& stretch = section.stretch;
-    const gtsam::Pose3 T_from_to = ends.at<gtsam::Pose3>(stretch.from)
-                                       .between(ends.at<gtsam::Pose3>(stretch.to));
+    const gtsam::Pose3 T_from_to =
+        ends.at<gtsam::Pose3>(stretch.from).between(ends.at<gtsam::Pose3>(stretch.to));
     section.moved = lego_loam_sc::expand(stretch, T_from_to, links_, relatives_);
   }
 }

@@ -72,8 +72,8 @@ class PoseGraph::Solver {
 
 void PoseGraph::Solver::add_first(const Pose& T_map_key) {
   poses.push_back(T_map_key);
-  gauge_ = boost::make_shared<gtsam::PriorFactor<Pose3>>(
-      0, to_gtsam(T_map_key), noise::Isotropic::Sigma(6, kPriorSigma));
+  gauge_ = boost::make_shared<gtsam::PriorFactor<Pose3>>(0, to_gtsam(T_map_key),
+                                                         noise::Isotropic::Sigma(6, kPriorSigma));
 }
 
 void PoseGraph::Solver::add_loop(const PoseEdge& loop) {

@@ -40,10 +40,11 @@ BlobFile::~BlobFile() {
 }
 
 void BlobFile::append(std::span<const std::byte> bytes) {
-  const bool full = !overflow_.empty() || repeat(bytes.size(), [&](std::size_t done) {
-    return ::pwrite(file_, bytes.data() + done, bytes.size() - done,
-                    static_cast<off_t>(in_file_ + done));
-  }) != 0;
+  const bool full =
+      !overflow_.empty() || repeat(bytes.size(), [&](std::size_t done) {
+                              return ::pwrite(file_, bytes.data() + done, bytes.size() - done,
+                                              static_cast<off_t>(in_file_ + done));
+                            }) != 0;
   if (full)
     overflow_.insert(overflow_.end(), bytes.begin(), bytes.end());
   else

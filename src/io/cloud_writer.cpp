@@ -37,8 +37,7 @@ std::string header(CloudFormat format, std::size_t count) {
   const auto comment = [&](std::size_t spaces) {
     return (ply ? "comment" : "#") + std::string(spaces, ' ') + "\n";
   };
-  const std::size_t length =
-      with(comment(0), std::numeric_limits<std::size_t>::max()).size();
+  const std::size_t length = with(comment(0), std::numeric_limits<std::size_t>::max()).size();
   return with(comment(length - with(comment(0), count).size()), count);
 }
 

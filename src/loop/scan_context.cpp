@@ -26,9 +26,9 @@ std::vector<float> bin_heights(std::span<const Eigen::Vector3f> points, double s
     if (!(radius > 0.0f && radius < max_radius) || !std::isfinite(p.z())) continue;
     const float azimuth = fast_atan2(p.y(), p.x());
     const int ring = std::min(static_cast<int>(radius * rings_per_metre), settings.rings - 1);
-    const int sector =
-        std::min(static_cast<int>((azimuth < 0.0f ? azimuth + kTurn : azimuth) * sectors_per_radian),
-                 settings.sectors - 1);
+    const int sector = std::min(
+        static_cast<int>((azimuth < 0.0f ? azimuth + kTurn : azimuth) * sectors_per_radian),
+        settings.sectors - 1);
     float& bin = bins[static_cast<std::size_t>(sector) * settings.rings + ring];
     bin = std::max(bin, static_cast<float>(p.z() + sensor_height));
   }

@@ -91,7 +91,7 @@ void match_with(std::vector<SurfaceMap>& maps, std::span<const double> reach,
     const Eigen::Vector3d point = points[i].position.cast<double>();
     const double weight = 1.0 / (range_noise * range_noise + surface.variance);
     const double range_difference = point.head<2>().norm() - surface.range;
-    const Correspondence c{kind_of(surface), point, surface.mean, surface.direction, weight,
+    const Correspondence c{kind_of(surface), point,         surface.mean, surface.direction, weight,
                            range_difference, points[i].age, points[i].row};
     if (distance(c, T_map_points) <= max_distance) correspondences.push_back(c);
   }

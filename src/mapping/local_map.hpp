@@ -19,9 +19,9 @@ constexpr int kMaxLevels = 6;
 /// map.
 struct MatchedSurfaces {
   struct Entry {
-    int level = -1;                          ///< the last that was looked at
+    int level = -1;                             ///< the last that was looked at
     std::array<VoxelKey, kMaxLevels> blocks{};  ///< on each level from the first to that
-    Surface surface;                         ///< none when no level has one
+    Surface surface;                            ///< none when no level has one
   };
   std::vector<Entry> planes, lines, scattered;
 };

@@ -58,7 +58,8 @@ class Mapper {
   void insert(const Features& deskewed, const Pose& T_map_lidar);
 
   /// Adds those of the present scan, unless the sensor has hardly moved since the last ones: what
-  /// it sees while it stands adds nothing but the pattern of its beams. Forgets what is out of reach.
+  /// it sees while it stands adds nothing but the pattern of its beams. Forgets what is out of
+  /// reach.
   void add_scan(const Features& deskewed, const Pose& T_map_lidar);
 
   void clear();
@@ -67,7 +68,8 @@ class Mapper {
   /// See core/state_archive.hpp.
   template <class Archive>
   void state(Archive& archive) {
-    archive(map_, elevation_bias_, row_bias_, spacing_, first_level_, last_insertion_, last_eviction_);
+    archive(map_, elevation_bias_, row_bias_, spacing_, first_level_, last_insertion_,
+            last_eviction_);
   }
 
  private:

@@ -40,7 +40,8 @@ std::vector<Point> voxel_filter(const std::vector<Point>& points, double size,
   }
   for (std::uint32_t number = 0; number < left.size(); ++number) {
     constexpr std::uint32_t kGolden = 2654435769u;  // spreads the numbers evenly over 32 bits
-    left[number] = 1 + static_cast<std::uint32_t>(std::uint64_t{number * kGolden} * left[number] >> 32);
+    left[number] =
+        1 + static_cast<std::uint32_t>(std::uint64_t{number * kGolden} * left[number] >> 32);
   }
   std::vector<Point> kept;
   kept.reserve(left.size());

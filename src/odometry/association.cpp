@@ -45,8 +45,8 @@ void add_row_neighbours(const FeatureIndex& previous, int center, float reach,
   const int first = std::max(center - kAlongRow, 0);
   const int last = std::min(center + kAlongRow, count - 1);
   for (int i = first; i <= last; ++i) {
-    const bool near = all[i].row == all[center].row &&
-                      (all[i].position - all[center].position).norm() <= reach;
+    const bool near =
+        all[i].row == all[center].row && (all[i].position - all[center].position).norm() <= reach;
     if (near) points.push_back(all[i].position);
   }
 }
@@ -107,8 +107,7 @@ std::vector<Correspondence> associate_planars(const std::vector<FeaturePoint>& p
     const std::size_t on_row = support.size();
     for (const int direction : {-1, 1}) {
       for (int gap = 1; gap <= settings.max_row_gap; ++gap) {
-        const int other =
-            previous.nearest_in_row(moved, row + direction * gap, max_distance, -1);
+        const int other = previous.nearest_in_row(moved, row + direction * gap, max_distance, -1);
         if (other < 0) continue;
         add_row_neighbours(previous, other, max_distance, support);
         break;

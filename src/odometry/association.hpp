@@ -22,7 +22,6 @@ std::vector<Correspondence> associate_edges(const std::vector<FeaturePoint>& edg
 std::vector<Correspondence> associate_planars(const std::vector<FeaturePoint>& planars,
                                               const FeatureIndex& previous,
                                               const Pose& T_previous_current,
-                                              const OdometrySettings& settings,
-                                              double range_noise);
+                                              const OdometrySettings& settings, double range_noise);
 
 }  // namespace lego_loam_sc

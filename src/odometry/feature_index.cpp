@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <nanoflann.hpp>
+#include <numbers>
 #include <utility>
 
 #include "segmentation/azimuth.hpp"
@@ -66,7 +66,9 @@ FeatureIndex::~FeatureIndex() = default;
 FeatureIndex::FeatureIndex(FeatureIndex&&) noexcept = default;
 FeatureIndex& FeatureIndex::operator=(FeatureIndex&&) noexcept = default;
 
-const std::vector<FeaturePoint>& FeatureIndex::points() const { return impl_->adaptor.points; }
+const std::vector<FeaturePoint>& FeatureIndex::points() const {
+  return impl_->adaptor.points;
+}
 
 int FeatureIndex::nearest(const Eigen::Vector3f& query, float max_distance) const {
   if (points().empty()) return -1;
@@ -94,8 +96,9 @@ int FeatureIndex::nearest_in_row(const Eigen::Vector3f& query, int row, float ma
   int best = -1;
   float best_squared = max_distance * max_distance;
   const auto visit = [&](int position) {
-    const RowEntry& entry =
-        begin[position < 0 ? position + count : position < count ? position : position - count];
+    const RowEntry& entry = begin[position < 0       ? position + count
+                                  : position < count ? position
+                                                     : position - count];
     float turn = std::abs(entry.azimuth - azimuth);
     if (turn > std::numbers::pi_v<float>) turn = 2.0f * std::numbers::pi_v<float> - turn;
     if (turn < 0.5f * std::numbers::pi_v<float>) {

@@ -24,8 +24,7 @@ class FeatureIndex {
   int nearest(const Eigen::Vector3f& query, float max_distance) const;
 
   /// The same among the points of one row, without the point `excluded` (-1 for none).
-  int nearest_in_row(const Eigen::Vector3f& query, int row, float max_distance,
-                     int excluded) const;
+  int nearest_in_row(const Eigen::Vector3f& query, int row, float max_distance, int excluded) const;
 
  private:
   struct Impl;

@@ -18,15 +18,15 @@ struct Motion {
   bool solved = false;  ///< false: the scans do not fit each other, the pose is the guess
   int edges = 0;        ///< correspondences of the last association
   int planars = 0;
-  int iterations = 0;   ///< Levenberg-Marquardt steps of all solves
+  int iterations = 0;  ///< Levenberg-Marquardt steps of all solves
   Localizability localizability;
 };
 
 /// Scan-to-scan odometry, paper 2.3 (3): features of the current scan, F_e and F_p, against the
-/// large feature sets of the previous one, edges with edges and ground with ground (label matching),
-/// in two Levenberg-Marquardt steps: [t_z, roll, pitch] from planes, then [t_x, t_y, yaw] from edges.
-/// When F_p is not all ground, planes fix other unknowns too, and one joint solve takes the place of
-/// the two steps.
+/// large feature sets of the previous one, edges with edges and ground with ground (label
+/// matching), in two Levenberg-Marquardt steps: [t_z, roll, pitch] from planes, then [t_x, t_y,
+/// yaw] from edges. When F_p is not all ground, planes fix other unknowns too, and one joint solve
+/// takes the place of the two steps.
 class Odometry {
  public:
   /// `range_noise` in m, one sigma.

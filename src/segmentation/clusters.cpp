@@ -109,8 +109,7 @@ Runs make_runs(const RangeImage& image, const std::vector<Label>& label, const S
 }
 
 // A row goes on from its last column to its first.
-void join_seams(const RangeImage& image, const SameInRow& same, const Runs& runs,
-                UnionFind& sets) {
+void join_seams(const RangeImage& image, const SameInRow& same, const Runs& runs, UnionFind& sets) {
   for (int row = 0; row < image.rows; ++row) {
     const std::uint32_t first = image.row_begin[row];
     const std::uint32_t end = image.row_begin[row + 1];
@@ -180,8 +179,8 @@ int cluster(const RangeImage& image, const SensorModel& sensor,
     const std::int32_t root = sets.root(run);
     const Extent& e = extent[root];
     const bool large = e.points >= settings.cluster_min_points;
-    const bool thin = e.points >= settings.thin_cluster_min_points &&
-                      e.rows >= settings.thin_cluster_min_rows;
+    const bool thin =
+        e.points >= settings.thin_cluster_min_points && e.rows >= settings.thin_cluster_min_rows;
     // A root is the smallest index of its cluster, hence numbered before its members.
     if (large || thin) cluster_of[run] = run == root ? clusters++ : cluster_of[root];
   }

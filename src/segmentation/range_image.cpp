@@ -25,9 +25,10 @@ std::vector<std::uint8_t> usable_points(const Scan& scan, const SensorModel& sen
   return usable;
 }
 
-// Adds a small angle to the elevation of the points of a row, which keep their range. Elevation bias
-// of KITTI's scans: see docs/sensors.md. All points of a row lie at nearly the row's own elevation:
-// with that a point takes no root and no division, and is off by a hundred thousandth of its range.
+// Adds a small angle to the elevation of the points of a row, which keep their range. Elevation
+// bias of KITTI's scans: see docs/sensors.md. All points of a row lie at nearly the row's own
+// elevation: with that a point takes no root and no division, and is off by a hundred thousandth of
+// its range.
 class Raise {
  public:
   Raise(double elevation, double angle)
@@ -53,8 +54,7 @@ float time_of_azimuth(float azimuth, const SensorModel& sensor) {
 
 // Fills `age` and `reference_ns`; `source` is the scan's index of each point of the image.
 void assign_times(const Scan& scan, const std::vector<std::uint32_t>& source,
-                  const std::vector<float>& azimuth, const SensorModel& sensor,
-                  RangeImage& image) {
+                  const std::vector<float>& azimuth, const SensorModel& sensor, RangeImage& image) {
   image.stamp_ns = image.reference_ns = scan.stamp_ns;
   image.age.assign(source.size(), 0.0f);
   if (sensor.motion_compensated || source.empty()) return;
@@ -68,7 +68,8 @@ void assign_times(const Scan& scan, const std::vector<std::uint32_t>& source,
     const std::int64_t middle = first + (last - first) / 2;
     image.reference_ns += middle;
     for (std::size_t k = 0; k < source.size(); ++k)
-      image.age[k] = static_cast<float>(1e-9 * static_cast<double>(scan.offset_ns[source[k]] - middle));
+      image.age[k] =
+          static_cast<float>(1e-9 * static_cast<double>(scan.offset_ns[source[k]] - middle));
   } else if (sensor.times_from_azimuth) {
     image.reference_ns += std::llround(0.5e9 * sensor.period);
     for (std::size_t k = 0; k < source.size(); ++k)
@@ -98,7 +99,7 @@ RangeImage project(const Scan& scan, const SensorModel& sensor) {
   const float columns_per_radian = image.columns / (2.0f * std::numbers::pi_v<float>);
   for (std::size_t i = 0; i < scan.size(); ++i) {
     if (!usable[i] || row[i] < 0) continue;
-    int column = static_cast<int>((azimuth[i] + std::numbers::pi_v<float>) * columns_per_radian);
+    int column = static_cast<int>((azimuth[i] + std::numbers::pi_v<float>)*columns_per_radian);
     if (column >= image.columns) column -= image.columns;
     pixel[i] = static_cast<std::uint32_t>(row[i]) * image.columns + column;
     ++begin[pixel[i] + 2];
@@ -123,8 +124,7 @@ RangeImage project(const Scan& scan, const SensorModel& sensor) {
     return std::pair(azimuth[a], a) < std::pair(azimuth[b], b);
   };
   for (int r = 0; r < image.rows; ++r) {
-    const Raise raise(radians(sensor.elevation_deg[r]),
-                      radians(sensor.elevation_correction_of(r)));
+    const Raise raise(radians(sensor.elevation_deg[r]), radians(sensor.elevation_correction_of(r)));
     for (int c = 0; c < image.columns; ++c) {
       const std::size_t p = static_cast<std::size_t>(r) * image.columns + c;
       if (begin[p + 1] - begin[p] > 1)

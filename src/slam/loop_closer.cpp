@@ -17,9 +17,9 @@ namespace {
 // Mahalanobis distance of a loop from the optimised graph above which it is taken out again: of six
 // degrees of freedom a true one exceeds it once in ten million.
 constexpr double kContradiction = 7.0;
-// And that below which a loop tells the graph nothing new, when the last one was found no longer ago
-// than this, m: a visit has to be tied to the one before, but whoever drives the same ways all day
-// would let the graph grow without end.
+// And that below which a loop tells the graph nothing new, when the last one was found no longer
+// ago than this, m: a visit has to be tied to the one before, but whoever drives the same ways all
+// day would let the graph grow without end.
 constexpr double kNothingNew = 0.5;
 constexpr double kSameVisit = 20.0;
 // Between two maps there is no pose graph to contradict a candidate. So more of them are tried, and
@@ -70,8 +70,7 @@ LoopCloser::LoopCloser(const LoopSettings& settings, const GraphSettings& graph,
       detector_(std::move(detector)),
       contexts_(settings.scan_context) {}
 
-std::vector<LoopCandidate> LoopCloser::candidates(const KeyFrames& key_frames,
-                                                  const Pieces& pieces,
+std::vector<LoopCandidate> LoopCloser::candidates(const KeyFrames& key_frames, const Pieces& pieces,
                                                   const PoseGraph& graph) const {
   const int query = static_cast<int>(key_frames.size()) - 1;
   int eligible = 0;  // key frames that are another visit, not the same one going on
@@ -111,9 +110,8 @@ std::vector<LoopCandidate> LoopCloser::candidates(const KeyFrames& key_frames,
   return found;
 }
 
-LoopVerification LoopCloser::verify(const LoopCandidate& candidate,
-                                    const KeyFrames& key_frames, const Pieces& pieces,
-                                    const PoseGraph& graph) const {
+LoopVerification LoopCloser::verify(const LoopCandidate& candidate, const KeyFrames& key_frames,
+                                    const Pieces& pieces, const PoseGraph& graph) const {
   const VerifierSettings& settings = settings_.verifier;
   const std::vector<Pose>& poses = graph.poses();
   const Pose expected = poses[candidate.match].inverse() * poses[candidate.query];
@@ -172,8 +170,7 @@ std::vector<LoopReport> LoopCloser::close(const KeyFrames& key_frames, Pieces& p
     const PoseEdge loop{candidate.match, candidate.query, verification.T_match_query,
                         loop_covariance(verification.covariance,
                                         verification.T_match_query.linear(), graph_settings_)};
-    if (!joins && now - last_loop_travelled_ < kSameVisit &&
-        graph.chi(loop) < kNothingNew) {
+    if (!joins && now - last_loop_travelled_ < kSameVisit && graph.chi(loop) < kNothingNew) {
       last_loop_travelled_ = now;
       break;
     }

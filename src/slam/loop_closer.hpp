@@ -30,8 +30,7 @@ class LoopCloser {
   /// Looks for loops that end at the newest key frame and adds accepted ones to the graph, which
   /// may join pieces. The graph is optimised, and a loop that the others contradict is taken out
   /// again. Returns every candidate that was verified.
-  std::vector<LoopReport> close(const KeyFrames& key_frames, Pieces& pieces,
-                                PoseGraph& graph);
+  std::vector<LoopReport> close(const KeyFrames& key_frames, Pieces& pieces, PoseGraph& graph);
 
   /// See core/state_archive.hpp.
   template <class Archive>

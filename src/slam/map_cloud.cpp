@@ -47,8 +47,8 @@ void make_map(const KeyFrames& key_frames, std::span<const Pose> T_map_key, doub
       for (const PackedPoint& point : *cloud) {
         const Eigen::Vector3d p = T_map_key[k] * point.position().cast<double>();
         if (voxels.take(p))
-          points.push_back({p.cast<float>(), static_cast<float>(point.intensity),
-                            static_cast<std::int32_t>(k)});
+          points.push_back(
+              {p.cast<float>(), static_cast<float>(point.intensity), static_cast<std::int32_t>(k)});
       }
     take(points);
   }

@@ -42,10 +42,8 @@ ScanMatch match_scans(const Scan& a, const Scan& b, const SensorModel& sensor,
   ScanMatch result;
   result.scan_context = compare(query.context, match.context);
 
-  const std::array<PlacedKeyFrame, 1> placed_match{
-      {{unpack(match.key_frame), Pose::Identity()}}};
-  const std::array<PlacedKeyFrame, 1> placed_query{
-      {{unpack(query.key_frame), Pose::Identity()}}};
+  const std::array<PlacedKeyFrame, 1> placed_match{{{unpack(match.key_frame), Pose::Identity()}}};
+  const std::array<PlacedKeyFrame, 1> placed_query{{{unpack(query.key_frame), Pose::Identity()}}};
   std::array<Pose, 1> guess{Pose::Identity()};
   guess[0].linear() = rotation_from_rpy(0.0, 0.0, result.scan_context.yaw);
   result.verification =

@@ -107,9 +107,9 @@ struct Slam::State {
   template <class Archive>
   void state(Archive& archive) {
     archive(sensor.mount_roll_deg, sensor.mount_pitch_deg, sensor.elevation_correction_deg,
-            sensor.row_correction_deg, clock,
-            height, odometry, mapper, loop_closer, graph, pieces, upkeep, T_map_key, fusion, key_frames, scans,
-            previous, twist, speed, travelled, in_doubt, lost_scans);
+            sensor.row_correction_deg, clock, height, odometry, mapper, loop_closer, graph, pieces,
+            upkeep, T_map_key, fusion, key_frames, scans, previous, twist, speed, travelled,
+            in_doubt, lost_scans);
     archive.grown(scan_of_key_frame);
     archive.grown(live);
   }

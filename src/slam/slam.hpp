@@ -54,7 +54,7 @@ class Slam {
   /// @}
 
   const KeyFrames& key_frames() const;  ///< in the order of time
-  const PoseGraph& graph() const;  ///< has the poses of the key frames and the loops
+  const PoseGraph& graph() const;       ///< has the poses of the key frames and the loops
 
   /// Number of maps that no loop joins: 1 unless the way was lost. Where they lie to each other is
   /// a guess.
