@@ -89,7 +89,7 @@ ScanContextIndex random_places(int count, const ScanContextSettings& settings) {
     place.occupied.assign(settings.sectors, 1.0f);
     for (int ring = 0; ring < settings.rings; ++ring)
       place.ring_key.push_back(static_cast<float>(random() % 4096) / 1024.0f);
-    index.add(std::move(place));
+    index.add(i, std::move(place));
   }
   return index;
 }
@@ -147,8 +147,10 @@ void add_loops(const Fixture& f) {
   });
   for (const int places : {5'000, 100'000}) {
     const auto index = std::make_shared<ScanContextIndex>(random_places(places, settings));
+    const auto here = std::make_shared<ScanContext>(
+        make_scan_context(*points, Stages::height(f.sensor), settings));
     add("scan_context_query/" + std::to_string(places),
-        [index, places] { return index->search(places - 1, places - 1); });
+        [index, here, places] { return index->search(places, *here, places); });
   }
 }
 

@@ -91,11 +91,18 @@ void Checkpoint::load(const std::function<void(StateReader&)>& read) {
 }
 
 void Checkpoint::save(const std::function<bool(StateWriter&)>& write) {
-  StateWriter state(counts_);
-  if (!write(state)) return;
   if (!growth_) growth_.emplace(growth_path_).cut(0);
-  growth_->append(state.growth());
-  growth_hash_ = hash_on(growth_hash_, state.growth());
+  const std::size_t size = growth_->size();
+  std::uint64_t growth_hash = growth_hash_;
+  StateWriter state(counts_, [&](std::string_view growth) {
+    growth_->append(growth);
+    growth_hash = hash_on(growth_hash, growth);
+  });
+  if (!write(state)) {
+    growth_->cut(size);
+    return;
+  }
+  growth_hash_ = growth_hash;
 
   StateWriter head;
   head(Head{.growth_size = growth_->size(), .growth_hash = growth_hash_});

@@ -95,7 +95,7 @@ struct OdometrySettings {
   int iterations = 5;
   double max_distance = 5.0;
   int max_row_gap = 2;
-  int max_points = 200;
+  int max_points = 100;
   int min_edges = 50;
   int min_planars = 20;
   double min_strength = 3.0;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -47,7 +48,7 @@ concept Plain = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 template <class T>
 concept Matrix = std::is_base_of_v<Eigen::PlainObjectBase<T>, T> && T::SizeAtCompileTime > 0;
 
-/// Head of the new elements of one growing container.
+/// Head of some new elements of one growing container.
 struct Growth {
   std::uint64_t number;  // of the container
   std::uint64_t elements;
@@ -64,8 +65,12 @@ class StateWriter {
  public:
   static constexpr bool kReads = false;
 
+  /// Takes what comes behind the growth of the writers before, some at a time.
+  using GrowthSink = std::function<void(std::string_view)>;
+
   /// `written`: what the writers before have given of the growing containers.
-  explicit StateWriter(GrownCounts written = {}) : written_(std::move(written)) {}
+  explicit StateWriter(GrownCounts written = {}, GrowthSink growth = {})
+      : written_(std::move(written)), growth_(std::move(growth)) {}
 
   /// Writes these values.
   template <class... Values>
@@ -85,23 +90,27 @@ class StateWriter {
     if (counts_.size() == written_.size()) written_.push_back(0);
     std::string elements;
     std::swap(elements, bytes_);
-    for (std::size_t i = written_[counts_.size()]; i < size; ++i) write(get(i));
+    std::size_t given = written_[counts_.size()];
+    for (std::size_t i = given; i < size; ++i) {
+      write(get(i));
+      if (bytes_.size() < kGrowthAtOnce && i + 1 < size) continue;
+      const state::Growth head{counts_.size(), i + 1 - given, bytes_.size()};
+      growth_({reinterpret_cast<const char*>(&head), sizeof head});
+      growth_(bytes_);
+      bytes_.clear();
+      given = i + 1;
+    }
     std::swap(elements, bytes_);
-    const std::size_t added = size - written_[counts_.size()];
-    const state::Growth head{counts_.size(), added, elements.size()};
-    growth_.append(reinterpret_cast<const char*>(&head), sizeof head);
-    growth_ += elements;
     counts_.push_back(size);
   }
 
-  /// Of all values that were written.
+  /// Of all values that were written, but for the growth.
   const std::string& bytes() const { return bytes_; }
-  const std::string& growth() const {
-    return growth_;
-  }  ///< to be put behind that of the writers before
   const GrownCounts& counts() const { return counts_; }  ///< for the next writer
 
  private:
+  static constexpr std::size_t kGrowthAtOnce = 1 << 20;  // bytes
+
   void put(const void* from, std::size_t size) {
     bytes_.append(static_cast<const char*>(from), size);
   }
@@ -153,8 +162,8 @@ class StateWriter {
   }
 
   std::string bytes_;
-  std::string growth_;
   GrownCounts written_;
+  GrowthSink growth_;
   GrownCounts counts_;
 };
 
@@ -163,7 +172,7 @@ class StateReader {
  public:
   static constexpr bool kReads = true;
 
-  /// The bytes of a writer, and the growth up to and with its own.
+  /// The bytes of a writer, and all growth up to and with its own.
   StateReader(std::string_view bytes, std::string_view growth) : rest_(bytes), growth_(growth) {}
 
   /// Reads these values.

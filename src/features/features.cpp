@@ -88,29 +88,30 @@ void pick_planars(Ranked& candidates, const FeatureSettings& settings, FeatureRo
   });
 }
 
-// m from one point to the next along the row at i, which has all its neighbours. The point itself
-// has no say: were the distance to the last pick measured, its noise would decide whether it is
-// picked, and all walls would seem turned in the sense of the scan.
-float local_step(const RangeImage& image, const FeatureSettings& settings, const FeatureRow& row,
-                 int i) {
+// Whether the row goes `spacing` m or more in `steps` points at i, which has all its neighbours;
+// its steps are as long as the mean among these. The point itself has no say: were the distance to
+// the last pick measured, its noise would decide whether it is picked, and all walls would seem
+// turned in the sense of the scan.
+bool apart(const RangeImage& image, const FeatureSettings& settings, const FeatureRow& row, int i,
+           int steps) {
   const int n = settings.neighbours;
   const int count = row.size();
   const int before = i - n < 0 ? i - n + count : i - n;
   const int after = i + n >= count ? i + n - count : i + n;
-  return (image.points[row.index[after]] - image.points[row.index[before]]).norm() /
-         static_cast<float>(2 * n);
+  const float squared =
+      (image.points[row.index[after]] - image.points[row.index[before]]).squaredNorm();
+  const auto share = static_cast<float>(steps) / static_cast<float>(2 * n);
+  const auto spacing = static_cast<float>(settings.planar_spacing);
+  return share * share * squared >= spacing * spacing;
 }
 
 // The large planar set without a count: every smooth point, thinned along the row.
 void spread_planars(const RangeImage& image, const FeatureSettings& settings, FeatureRow& row) {
-  const auto spacing = static_cast<float>(settings.planar_spacing);
   int last = -row.size();
   for (int i = 0; i < row.size(); ++i) {
     const bool flat = row.pick[i] == Pick::planar_flat;
     if (!flat && (row.pick[i] != Pick::none || !row.smooth[i])) continue;
-    const bool apart =
-        static_cast<float>(i - last) * local_step(image, settings, row, i) >= spacing;
-    if (!flat && !apart) continue;
+    if (!flat && !apart(image, settings, row, i, i - last)) continue;
     if (!flat) row.pick[i] = Pick::planar_large;
     last = i;
   }

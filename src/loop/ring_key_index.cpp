@@ -27,10 +27,10 @@ BlockDistances squared_distances(const float* block, const std::vector<float>& k
   return sums;
 }
 
-// The key frames 0 to eligible - 1 with the nearest keys, nearest first.
+// The places 0 to eligible - 1 with the nearest keys, nearest first.
 std::vector<int> nearest_keys(const std::vector<float>& blocks, const std::vector<float>& key,
                               std::size_t eligible, std::size_t count) {
-  std::vector<std::pair<float, int>> nearest;  // ascending; equal distances by key frame
+  std::vector<std::pair<float, int>> nearest;  // ascending; equal distances by place
   float farthest = std::numeric_limits<float>::infinity();
   for (std::size_t first = 0; first < eligible; first += kBlock) {
     const BlockDistances distances = squared_distances(blocks.data() + first * key.size(), key);
@@ -42,16 +42,16 @@ std::vector<int> nearest_keys(const std::vector<float>& blocks, const std::vecto
       if (nearest.size() == count) farthest = nearest.back().first;
     }
   }
-  std::vector<int> key_frames;
-  for (const auto& [distance, key_frame] : nearest) key_frames.push_back(key_frame);
-  return key_frames;
+  std::vector<int> places;
+  for (const auto& [distance, place] : nearest) places.push_back(place);
+  return places;
 }
 
 }  // namespace
 
 ScanContextIndex::ScanContextIndex(const ScanContextSettings& settings) : settings_(settings) {}
 
-void ScanContextIndex::add(ScanContext context) {
+void ScanContextIndex::add(int key_frame, ScanContext context) {
   if (context.rings != settings_.rings || context.sectors != settings_.sectors)
     throw std::invalid_argument(
         "scan context has another number of rings or sectors than the index");
@@ -60,19 +60,20 @@ void ScanContextIndex::add(ScanContext context) {
   if (lane == 0) ring_keys_.resize(block + kBlock * context.ring_key.size(), 0.0f);
   for (std::size_t ring = 0; ring < context.ring_key.size(); ++ring)
     ring_keys_[block + ring * kBlock + lane] = context.ring_key[ring];
+  key_frames_.push_back(key_frame);
   contexts_.push_back(std::move(context));
 }
 
-std::vector<LoopCandidate> ScanContextIndex::search(int query, int eligible) const {
-  const ScanContext& context = contexts_.at(query);
-  const std::size_t count = std::clamp<std::size_t>(std::max(eligible, 0), 0, contexts_.size());
+std::vector<LoopCandidate> ScanContextIndex::search(int query, const ScanContext& context,
+                                                    int eligible) const {
+  const auto count = static_cast<std::size_t>(
+      std::lower_bound(key_frames_.begin(), key_frames_.end(), eligible) - key_frames_.begin());
   std::vector<LoopCandidate> candidates;
-  for (const int key_frame :
-       nearest_keys(ring_keys_, context.ring_key, count, settings_.candidates)) {
-    const ScanContextMatch match = compare(context, contexts_[key_frame]);
+  for (const int place : nearest_keys(ring_keys_, context.ring_key, count, settings_.candidates)) {
+    const ScanContextMatch match = compare(context, contexts_[place]);
     if (match.distance < settings_.threshold)  // equation (8)
-      candidates.push_back(
-          {query, key_frame, LoopCandidate::Detector::scan_context, match.distance, match.yaw});
+      candidates.push_back({query, key_frames_[place], LoopCandidate::Detector::scan_context,
+                            match.distance, match.yaw});
   }
   std::sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
     return std::pair(a.distance, a.match) < std::pair(b.distance, b.match);

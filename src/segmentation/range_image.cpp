@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -14,15 +15,28 @@
 namespace lego_loam_sc {
 namespace {
 
-std::vector<std::uint8_t> usable_points(const Scan& scan, const SensorModel& sensor) {
-  const float nearest = static_cast<float>(sensor.min_range * sensor.min_range);
-  const float farthest = static_cast<float>(sensor.max_range * sensor.max_range);
-  std::vector<std::uint8_t> usable(scan.size());
-  for (std::size_t i = 0; i < scan.size(); ++i) {
-    const float squared = scan.points[i].squaredNorm();  // NaN and infinity fail both comparisons
-    usable[i] = squared >= nearest && squared <= farthest && squared > 0.0f;
-  }
+std::vector<float> ranges(const Scan& scan) {
+  std::vector<float> range(scan.size());
+  for (std::size_t i = 0; i < scan.size(); ++i) range[i] = scan.points[i].norm();
+  return range;
+}
+
+// NaN and infinity fail the comparisons.
+std::vector<std::uint8_t> usable_points(const std::vector<float>& range,
+                                        const SensorModel& sensor) {
+  const float nearest = static_cast<float>(sensor.min_range);
+  const float farthest = static_cast<float>(sensor.max_range);
+  std::vector<std::uint8_t> usable(range.size());
+  for (std::size_t i = 0; i < range.size(); ++i)
+    usable[i] = (range[i] >= nearest) & (range[i] <= farthest) & (range[i] > 0.0f);
   return usable;
+}
+
+std::vector<float> azimuths(const Scan& scan) {
+  std::vector<float> azimuth(scan.size());
+  for (std::size_t i = 0; i < scan.size(); ++i)
+    azimuth[i] = fast_atan2(scan.points[i].y(), scan.points[i].x());
+  return azimuth;
 }
 
 // Adds a small angle to the elevation of the points of a row, which keep their range. Elevation
@@ -52,98 +66,127 @@ float time_of_azimuth(float azimuth, const SensorModel& sensor) {
   return (turns - std::floor(turns)) * static_cast<float>(sensor.period);
 }
 
-// Fills `age` and `reference_ns`; `source` is the scan's index of each point of the image.
-void assign_times(const Scan& scan, const std::vector<std::uint32_t>& source,
-                  const std::vector<float>& azimuth, const SensorModel& sensor, RangeImage& image) {
+// The pixel of each point, kNone for points that are left out.
+constexpr std::uint32_t kNone = 0xffffffff;
+std::vector<std::uint32_t> pixels_of_points(const std::vector<std::uint8_t>& usable,
+                                            const std::vector<std::int16_t>& row,
+                                            const std::vector<float>& azimuth, int columns) {
+  std::vector<std::uint32_t> pixel(azimuth.size(), kNone);
+  const float columns_per_radian = columns / (2.0f * std::numbers::pi_v<float>);
+  for (std::size_t i = 0; i < azimuth.size(); ++i) {
+    if (!usable[i] || row[i] < 0) continue;
+    int column = static_cast<int>((azimuth[i] + std::numbers::pi_v<float>)*columns_per_radian);
+    if (column >= columns) column -= columns;
+    pixel[i] = static_cast<std::uint32_t>(row[i]) * columns + column;
+  }
+  return pixel;
+}
+
+// Where in the image each point goes that has a pixel: pixel by pixel, by azimuth within one.
+// Fills `row_begin`.
+std::vector<std::uint32_t> places_of_points(const std::vector<std::uint32_t>& pixel,
+                                            const std::vector<float>& azimuth, RangeImage& image) {
+  // Counting sort. The counts stand two places up: their sums are the beginnings of the pixels one
+  // place up, and placing the points moves each to the end of its pixel.
+  const std::size_t pixels = static_cast<std::size_t>(image.rows) * image.columns;
+  std::vector<std::uint32_t> begin(pixels + 2, 0);
+  for (const std::uint32_t p : pixel)
+    if (p != kNone) ++begin[p + 2];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<std::uint32_t> order(begin.back());
+  for (std::size_t i = 0; i < pixel.size(); ++i)
+    if (pixel[i] != kNone) order[begin[pixel[i] + 1]++] = static_cast<std::uint32_t>(i);
+  for (std::size_t p = 0; p < pixels; ++p)
+    if (begin[p + 1] - begin[p] > 1)
+      std::sort(order.begin() + begin[p], order.begin() + begin[p + 1],
+                [&](std::uint32_t a, std::uint32_t b) {
+                  return std::pair(azimuth[a], a) < std::pair(azimuth[b], b);
+                });
+
+  image.row_begin.resize(image.rows + 1);
+  for (int r = 0; r <= image.rows; ++r)
+    image.row_begin[r] = begin[static_cast<std::size_t>(r) * image.columns];
+  std::vector<std::uint32_t> place(pixel.size());
+  for (std::size_t k = 0; k < order.size(); ++k) place[order[k]] = static_cast<std::uint32_t>(k);
+  return place;
+}
+
+// Seconds from the middle of the sweep to each point of the scan, empty when they are not known or
+// gone. Fills `stamp_ns` and `reference_ns`.
+std::vector<float> ages(const Scan& scan, const std::vector<std::uint32_t>& pixel,
+                        const std::vector<float>& azimuth, const SensorModel& sensor,
+                        RangeImage& image) {
   image.stamp_ns = image.reference_ns = scan.stamp_ns;
-  image.age.assign(source.size(), 0.0f);
-  if (sensor.motion_compensated || source.empty()) return;
+  std::vector<float> age;
+  if (sensor.motion_compensated || image.row_begin.back() == 0) return age;
   if (!scan.offset_ns.empty()) {
-    std::int64_t first = scan.offset_ns[source.front()];
-    std::int64_t last = first;
-    for (const std::uint32_t i : source) {
+    auto first = std::numeric_limits<std::int64_t>::max();
+    auto last = std::numeric_limits<std::int64_t>::min();
+    for (std::size_t i = 0; i < pixel.size(); ++i) {
+      if (pixel[i] == kNone) continue;
       first = std::min<std::int64_t>(first, scan.offset_ns[i]);
       last = std::max<std::int64_t>(last, scan.offset_ns[i]);
     }
     const std::int64_t middle = first + (last - first) / 2;
     image.reference_ns += middle;
-    for (std::size_t k = 0; k < source.size(); ++k)
-      image.age[k] =
-          static_cast<float>(1e-9 * static_cast<double>(scan.offset_ns[source[k]] - middle));
+    age.resize(pixel.size());
+    for (std::size_t i = 0; i < age.size(); ++i)
+      age[i] = static_cast<float>(1e-9 * static_cast<double>(scan.offset_ns[i] - middle));
   } else if (sensor.times_from_azimuth) {
     image.reference_ns += std::llround(0.5e9 * sensor.period);
-    for (std::size_t k = 0; k < source.size(); ++k)
-      image.age[k] =
-          time_of_azimuth(azimuth[source[k]], sensor) - 0.5f * static_cast<float>(sensor.period);
+    age.resize(pixel.size());
+    for (std::size_t i = 0; i < age.size(); ++i)
+      age[i] = time_of_azimuth(azimuth[i], sensor) - 0.5f * static_cast<float>(sensor.period);
   }
+  return age;
 }
 
 }  // namespace
 
 RangeImage project(const Scan& scan, const SensorModel& sensor) {
-  const std::vector<std::uint8_t> usable = usable_points(scan, sensor);
+  const std::vector<float> range = ranges(scan);
+  const std::vector<std::uint8_t> usable = usable_points(range, sensor);
   const std::vector<std::int16_t> row = assign_rows(scan, usable, sensor);
-  std::vector<float> azimuth(scan.size());
-  for (std::size_t i = 0; i < scan.size(); ++i)
-    azimuth[i] = fast_atan2(scan.points[i].y(), scan.points[i].x());
+  const std::vector<float> azimuth = azimuths(scan);
+  const std::vector<std::uint32_t> pixel = pixels_of_points(usable, row, azimuth, sensor.columns);
 
   RangeImage image;
   image.rows = sensor.rows();
   image.columns = sensor.columns;
-  const std::size_t pixels = static_cast<std::size_t>(image.rows) * image.columns;
+  const std::vector<std::uint32_t> place = places_of_points(pixel, azimuth, image);
+  const std::vector<float> age = ages(scan, pixel, azimuth, sensor, image);
 
-  // Counting sort by pixel. The counts stand two places up: their sums are the beginnings of the
-  // pixels one place up, and placing the points moves each to the end of its pixel.
-  std::vector<std::uint32_t> pixel(scan.size());
-  std::vector<std::uint32_t> begin(pixels + 2, 0);
-  const float columns_per_radian = image.columns / (2.0f * std::numbers::pi_v<float>);
-  for (std::size_t i = 0; i < scan.size(); ++i) {
-    if (!usable[i] || row[i] < 0) continue;
-    int column = static_cast<int>((azimuth[i] + std::numbers::pi_v<float>)*columns_per_radian);
-    if (column >= image.columns) column -= image.columns;
-    pixel[i] = static_cast<std::uint32_t>(row[i]) * image.columns + column;
-    ++begin[pixel[i] + 2];
-  }
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  std::vector<std::uint32_t> source(begin.back());
-  for (std::size_t i = 0; i < scan.size(); ++i)
-    if (usable[i] && row[i] >= 0) source[begin[pixel[i] + 1]++] = static_cast<std::uint32_t>(i);
-
-  const std::size_t count = source.size();
+  const std::size_t count = image.row_begin.back();
   image.points.resize(count);
   image.range.resize(count);
   image.intensity.assign(count, 0.0f);
+  image.age.assign(count, 0.0f);
   image.column.resize(count);
-  image.pixels.assign(pixels, -1);
-  image.row_begin.resize(image.rows + 1);
-  for (int r = 0; r <= image.rows; ++r)
-    image.row_begin[r] = begin[static_cast<std::size_t>(r) * image.columns];
+  image.pixels.assign(static_cast<std::size_t>(image.rows) * image.columns, -1);
 
+  std::vector<Raise> raise;
+  for (int r = 0; r < image.rows; ++r)
+    raise.emplace_back(radians(sensor.elevation_deg[r]),
+                       radians(sensor.elevation_correction_of(r)));
   const Eigen::Matrix3f R_level_lidar = R_base_lidar(sensor).cast<float>();
-  const auto by_azimuth = [&](std::uint32_t a, std::uint32_t b) {
-    return std::pair(azimuth[a], a) < std::pair(azimuth[b], b);
-  };
-  for (int r = 0; r < image.rows; ++r) {
-    const Raise raise(radians(sensor.elevation_deg[r]), radians(sensor.elevation_correction_of(r)));
-    for (int c = 0; c < image.columns; ++c) {
-      const std::size_t p = static_cast<std::size_t>(r) * image.columns + c;
-      if (begin[p + 1] - begin[p] > 1)
-        std::sort(source.begin() + begin[p], source.begin() + begin[p + 1], by_azimuth);
-      std::int32_t nearest = -1;
-      for (std::uint32_t k = begin[p]; k < begin[p + 1]; ++k) {
-        const Eigen::Vector3f& point = scan.points[source[k]];
-        image.range[k] = point.norm();
-        image.points[k] = raise(point, image.range[k]);
-        if (sensor.tilted()) image.points[k] = R_level_lidar * image.points[k];
-        image.column[k] = static_cast<std::uint16_t>(c);
-        if (!scan.intensity.empty()) image.intensity[k] = scan.intensity[source[k]];
-        if (nearest < 0 || image.range[k] < image.range[nearest])
-          nearest = static_cast<std::int32_t>(k);
-      }
-      image.pixels[p] = nearest;
-    }
+  const bool tilted = sensor.tilted();
+  const bool intensities = !scan.intensity.empty();
+  // In the order of the scan: a sensor goes through all rows again and again, so that the points of
+  // each row are written one after the other.
+  for (std::size_t i = 0; i < pixel.size(); ++i) {
+    if (pixel[i] == kNone) continue;
+    const std::uint32_t k = place[i];
+    const Eigen::Vector3f point = raise[row[i]](scan.points[i], range[i]);
+    image.points[k] = tilted ? R_level_lidar * point : point;
+    image.range[k] = range[i];
+    image.column[k] = static_cast<std::uint16_t>(pixel[i] - row[i] * image.columns);
+    if (intensities) image.intensity[k] = scan.intensity[i];
+    if (!age.empty()) image.age[k] = age[i];
+    std::int32_t& nearest = image.pixels[pixel[i]];
+    const auto here = static_cast<std::int32_t>(k);
+    if (nearest < 0 || std::pair(range[i], here) < std::pair(image.range[nearest], nearest))
+      nearest = here;
   }
-  assign_times(scan, source, azimuth, sensor, image);
   return image;
 }
 

@@ -22,6 +22,8 @@ constexpr double kContradiction = 7.0;
 // day would let the graph grow without end.
 constexpr double kNothingNew = 0.5;
 constexpr double kSameVisit = 20.0;
+// With each of them the pause before the next doubles, up to this, m.
+constexpr double kLongestPause = 0.5 * kSameVisit;
 // Between two maps there is no pose graph to contradict a candidate. So more of them are tried, and
 // more must agree: the overlap of a loop that joins them.
 constexpr std::size_t kJoinCandidates = 3;
@@ -68,9 +70,11 @@ LoopCloser::LoopCloser(const LoopSettings& settings, const GraphSettings& graph,
       graph_settings_(graph),
       range_noise_(range_noise),
       detector_(std::move(detector)),
-      contexts_(settings.scan_context) {}
+      contexts_(settings.scan_context),
+      pause_(settings.spacing) {}
 
-std::vector<LoopCandidate> LoopCloser::candidates(const KeyFrames& key_frames, const Pieces& pieces,
+std::vector<LoopCandidate> LoopCloser::candidates(const KeyFrames& key_frames,
+                                                  const ScanContext& context, const Pieces& pieces,
                                                   const PoseGraph& graph) const {
   const int query = static_cast<int>(key_frames.size()) - 1;
   int eligible = 0;  // key frames that are another visit, not the same one going on
@@ -84,7 +88,7 @@ std::vector<LoopCandidate> LoopCloser::candidates(const KeyFrames& key_frames, c
 
   std::vector<LoopCandidate> found;
   if (settings_.scan_context.enabled) {
-    const std::vector<LoopCandidate> alike = contexts_.search(query, eligible);
+    const std::vector<LoopCandidate> alike = contexts_.search(query, context, eligible);
     for (const LoopCandidate& candidate : alike) {
       const bool first = found.empty();  // c* of equation (8)
       const bool joins = !pieces.joined(candidate.match, query);
@@ -151,14 +155,24 @@ LoopVerification LoopCloser::verify(const LoopCandidate& candidate, const KeyFra
   return result;
 }
 
-std::vector<LoopReport> LoopCloser::close(const KeyFrames& key_frames, Pieces& pieces,
-                                          PoseGraph& graph) {
+std::vector<LoopReport> LoopCloser::close(const KeyFrames& key_frames, ScanContext context,
+                                          Pieces& pieces, PoseGraph& graph) {
+  std::vector<LoopReport> reports = find(key_frames, context, pieces, graph);
+  // A place that a loop has told is described already, by the visit before.
+  const bool known = pause_ > settings_.spacing &&
+                     key_frames.travelled(key_frames.size() - 1) - last_loop_travelled_ < pause_;
+  if (!known) contexts_.add(static_cast<int>(key_frames.size()) - 1, std::move(context));
+  return reports;
+}
+
+std::vector<LoopReport> LoopCloser::find(const KeyFrames& key_frames, const ScanContext& context,
+                                         Pieces& pieces, PoseGraph& graph) {
   std::vector<LoopReport> reports;
   const double now = key_frames.travelled(key_frames.size() - 1);
-  const bool just_closed = now - last_loop_travelled_ < settings_.spacing;
+  const bool just_closed = now - last_loop_travelled_ < pause_;
   if (just_closed && pieces.maps() == 1) return reports;
 
-  for (const LoopCandidate& candidate : candidates(key_frames, pieces, graph)) {
+  for (const LoopCandidate& candidate : candidates(key_frames, context, pieces, graph)) {
     const bool joins = !pieces.joined(candidate.match, candidate.query);
     if (just_closed && !joins) continue;
     LoopReport& report = reports.emplace_back();
@@ -172,6 +186,7 @@ std::vector<LoopReport> LoopCloser::close(const KeyFrames& key_frames, Pieces& p
                                         verification.T_match_query.linear(), graph_settings_)};
     if (!joins && now - last_loop_travelled_ < kSameVisit && graph.chi(loop) < kNothingNew) {
       last_loop_travelled_ = now;
+      pause_ = std::max(pause_, std::min(2.0 * pause_, kLongestPause));
       break;
     }
     report.added = true;
@@ -187,6 +202,7 @@ std::vector<LoopReport> LoopCloser::close(const KeyFrames& key_frames, Pieces& p
     }
     if (joins) pieces.join(candidate.match, candidate.query);
     last_loop_travelled_ = now;
+    pause_ = settings_.spacing;
     break;  // one loop for each key frame
   }
   return reports;

@@ -24,23 +24,24 @@ class LoopCloser {
   LoopCloser(const LoopSettings& settings, const GraphSettings& graph, double range_noise,
              LoopDetector detector = {});
 
-  /// Describes the newest key frame; call once for each.
-  void add_key_frame(ScanContext context) { contexts_.add(std::move(context)); }
-
-  /// Looks for loops that end at the newest key frame and adds accepted ones to the graph, which
-  /// may join pieces. The graph is optimised, and a loop that the others contradict is taken out
-  /// again. Returns every candidate that was verified.
-  std::vector<LoopReport> close(const KeyFrames& key_frames, Pieces& pieces, PoseGraph& graph);
+  /// Looks for loops that end at the newest key frame, which `context` describes, and adds accepted
+  /// ones to the graph, which may join pieces. The graph is optimised, and a loop that the others
+  /// contradict is taken out again. Call once for each key frame. Returns every candidate that was
+  /// verified.
+  std::vector<LoopReport> close(const KeyFrames& key_frames, ScanContext context, Pieces& pieces,
+                                PoseGraph& graph);
 
   /// See core/state_archive.hpp.
   template <class Archive>
   void state(Archive& archive) {
-    archive(contexts_, last_loop_travelled_);
+    archive(contexts_, last_loop_travelled_, pause_);
   }
 
  private:
-  std::vector<LoopCandidate> candidates(const KeyFrames& key_frames, const Pieces& pieces,
-                                        const PoseGraph& graph) const;
+  std::vector<LoopReport> find(const KeyFrames& key_frames, const ScanContext& context,
+                               Pieces& pieces, PoseGraph& graph);
+  std::vector<LoopCandidate> candidates(const KeyFrames& key_frames, const ScanContext& context,
+                                        const Pieces& pieces, const PoseGraph& graph) const;
   LoopVerification verify(const LoopCandidate& candidate, const KeyFrames& key_frames,
                           const Pieces& pieces, const PoseGraph& graph) const;
 
@@ -50,6 +51,7 @@ class LoopCloser {
   LoopDetector detector_;
   ScanContextIndex contexts_;
   double last_loop_travelled_ = -1e9;  // m along the path
+  double pause_;                       // m to travel before the next is sought
 };
 
 }  // namespace lego_loam_sc

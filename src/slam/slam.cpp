@@ -100,8 +100,8 @@ struct Slam::State {
                   ScanReport& report);
   bool is_key_frame(const Pose& pose) const;
   void begin_piece(ScanReport& report);
-  void add_key_frame(const KeyFrame& key_frame, const MapMatch& match, ScanContext context);
-  void close_loops(ScanReport& report);
+  void add_key_frame(const KeyFrame& key_frame, const MapMatch& match);
+  void close_loops(ScanContext context, ScanReport& report);
   Pose of_lidar(Pose T_frame_level) const;
 
   template <class Archive>
@@ -244,8 +244,8 @@ ScanReport Slam::State::process(const Scan& scan) {
     const std::vector<Eigen::Vector3f> points = deskewed_points(image, current.twist);
     add_key_frame(make_key_frame(image, segmentation, features_deskewed, points, travelled,
                                  settings.key_frames.point_spacing),
-                  match, make_scan_context(points, height, settings.loop.scan_context));
-    close_loops(report);
+                  match);
+    close_loops(make_scan_context(points, height, settings.loop.scan_context), report);
     T_map_lidar = T_map_key;
   }
 
@@ -354,8 +354,7 @@ bool Slam::State::is_key_frame(const Pose& pose) const {
          rotation_angle(since) >= radians(settings.key_frames.rotation_deg);
 }
 
-void Slam::State::add_key_frame(const KeyFrame& key_frame, const MapMatch& match,
-                                ScanContext context) {
+void Slam::State::add_key_frame(const KeyFrame& key_frame, const MapMatch& match) {
   const int number = static_cast<int>(key_frames.size());
   if (number == 0) {
     graph.add_first(match.T_map_lidar);
@@ -370,13 +369,12 @@ void Slam::State::add_key_frame(const KeyFrame& key_frame, const MapMatch& match
   T_map_key = match.T_map_lidar;
   upkeep.add(T_map_key);
   key_frames.add(key_frame);
-  loop_closer.add_key_frame(std::move(context));
 }
 
 // Loop closing, 2.3 (5) and (6); a correction that matters here reaches the current pose and the
 // local map at once, and all other poses through transform fusion.
-void Slam::State::close_loops(ScanReport& report) {
-  report.loops = loop_closer.close(key_frames, pieces, graph);
+void Slam::State::close_loops(ScanContext context, ScanReport& report) {
+  report.loops = loop_closer.close(key_frames, std::move(context), pieces, graph);
   bool accepted = false;
   for (LoopReport& loop : report.loops) {
     loop.query_scan = scan_of_key_frame[loop.candidate.query];
