@@ -147,6 +147,22 @@ Pose predicted_where_degenerate(const ScanGuess& guess, const Localizability& l)
   return perturb(guess.T_map_lidar, change);
 }
 
+// The share is that of all points, or without the scattered ones: the map has few of those where
+// the scans that made it had edges enough.
+bool enough(const std::vector<Correspondence>& correspondences, const Features& points,
+            const MappingSettings& settings) {
+  const auto shaped = points.planars_large.size() + points.edges_large.size();
+  const auto matched = correspondences.size();
+  const auto matched_shaped =
+      std::count_if(correspondences.begin(), correspondences.end(),
+                    [](const Correspondence& c) { return c.kind != Correspondence::Kind::point; });
+  const auto all = static_cast<double>(shaped + points.scattered.size());
+  return matched >= static_cast<std::size_t>(settings.min_matches) &&
+         (static_cast<double>(matched) >= settings.min_matched_share * all ||
+          static_cast<double>(matched_shaped) >=
+              settings.min_matched_share * static_cast<double>(shaped));
+}
+
 int count_agreeing(const std::vector<Correspondence>& correspondences, const Pose& pose) {
   return static_cast<int>(std::count_if(
       correspondences.begin(), correspondences.end(),
@@ -217,9 +233,7 @@ MapMatch Mapper::refine(const Features& features, const ScanGuess& guess) {
     correspondences = map_.match(deskew(points, twist), pose, settings_.max_distance, range_noise_,
                                  first_level_, surfaces);
     match.matches = static_cast<int>(correspondences.size());
-    if (match.matches < settings_.min_matches ||
-        match.matches < settings_.min_matched_share * match.points)
-      return match;
+    if (!enough(correspondences, points, settings_)) return match;
 
     scale = robust_scale(correspondences, pose, kKernelSpreads, kMinScale, kMaxScale);
     if (k == 0) {

@@ -24,6 +24,11 @@ constexpr double kNothingNew = 0.5;
 constexpr double kSameVisit = 20.0;
 // With each of them the pause before the next doubles, up to this, m.
 constexpr double kLongestPause = 0.5 * kSameVisit;
+// Where so many loops end within this distance, m, another visit is no news unless it disagrees.
+// Chi has six degrees of freedom: 2.5 is a usual value of it.
+constexpr int kWellTied = 10;
+constexpr double kPlace = 10.0;
+constexpr double kDisagreement = 2.5;
 // Between two maps there is no pose graph to contradict a candidate. So more of them are tried, and
 // more must agree: the overlap of a loop that joins them.
 constexpr std::size_t kJoinCandidates = 3;
@@ -50,6 +55,15 @@ double way_between(const LoopCandidate& candidate, const KeyFrames& key_frames,
   const double now = key_frames.travelled(candidate.query);
   return pieces.same(candidate.query, candidate.match) ? now - key_frames.travelled(candidate.match)
                                                        : now;
+}
+
+bool well_tied(int key_frame, const PoseGraph& graph) {
+  const std::vector<PoseEdge>& loops = graph.loop_edges();
+  const std::vector<Pose>& poses = graph.poses();
+  const Eigen::Vector3d place = poses[key_frame].translation();
+  return std::count_if(loops.begin(), loops.end(), [&](const PoseEdge& loop) {
+           return (poses[loop.to].translation() - place).norm() <= kPlace;
+         }) >= kWellTied;
 }
 
 // How far a loop is from what the pose graph expects, in sigmas of the drift since then.
@@ -184,7 +198,10 @@ std::vector<LoopReport> LoopCloser::find(const KeyFrames& key_frames, const Scan
     const PoseEdge loop{candidate.match, candidate.query, verification.T_match_query,
                         loop_covariance(verification.covariance,
                                         verification.T_match_query.linear(), graph_settings_)};
-    if (!joins && now - last_loop_travelled_ < kSameVisit && graph.chi(loop) < kNothingNew) {
+    const double chi = graph.chi(loop);
+    const bool same_visit = now - last_loop_travelled_ < kSameVisit;
+    if (!joins && ((same_visit && chi < kNothingNew) ||
+                   (chi < kDisagreement && well_tied(candidate.match, graph)))) {
       last_loop_travelled_ = now;
       pause_ = std::max(pause_, std::min(2.0 * pause_, kLongestPause));
       break;

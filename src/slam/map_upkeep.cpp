@@ -2,6 +2,9 @@
 #include "slam/map_upkeep.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
 #include <utility>
 
 namespace lego_loam_sc {
@@ -14,8 +17,20 @@ constexpr double kArm = 10.0;
 constexpr int kAtOnce = 12;
 constexpr int kWithEachScan = 3;
 
+// m; of the key frames in a cell of this size one is enough. Whoever drives the same way all day
+// would otherwise have all of them put in again and again.
+constexpr double kCell = 1.0;
+
 double distance(const Pose& a, const Pose& b) {
   return (a.translation() - b.translation()).norm();
+}
+
+using CellIndex = std::array<int, 3>;
+
+CellIndex cell_of(const Pose& pose) {
+  CellIndex cell;
+  for (int i = 0; i < 3; ++i) cell[i] = static_cast<int>(std::floor(pose.translation()[i] / kCell));
+  return cell;
 }
 
 }  // namespace
@@ -45,8 +60,13 @@ bool MapUpkeep::follow(std::span<const Pose> T_map_key, const Pieces& pieces,
     const double away = distance(T_map_key[k], T_map_key[last]);
     if (away <= radius_ && !in_map_[k] && pieces.joined(k, last)) near.emplace_back(away, k);
   }
-  std::sort(near.rbegin(), near.rend());
-  for (const auto& [away, k] : near) missing_.push_back(k);
+  std::sort(near.begin(), near.end());
+  std::set<CellIndex> taken;
+  for (const std::optional<Pose>& pose : in_map_)
+    if (pose) taken.insert(cell_of(*pose));
+  for (const auto& [away, k] : near)
+    if (taken.insert(cell_of(T_map_key[k])).second) missing_.push_back(k);
+  std::reverse(missing_.begin(), missing_.end());
   if (moved) put_in(kAtOnce, T_map_key, key_frames, mapper);
   return moved;
 }

@@ -15,9 +15,9 @@ namespace lego_loam_sc {
 
 /// Keeps the local map in step with the pose graph. A loop moves key frames and may bring others
 /// near that the map has forgotten. When one that is in the map has moved by more than its surfaces
-/// bear, the map is drawn anew from the key frames; when not, only those that are missing are added
-/// and the mapper goes on where it is. Either takes many key frames: the nearest are put in at once
-/// and the others a few with each scan, so that no scan has to wait for all of them.
+/// bear, the map is drawn anew from the key frames; when not, only those where it has none are
+/// added and the mapper goes on where it is. Either takes many key frames: the nearest are put in
+/// at once and the others a few with each scan, so that no scan has to wait for all of them.
 class MapUpkeep {
  public:
   /// `radius` of the local map, m.
@@ -50,7 +50,7 @@ class MapUpkeep {
 
   double radius_;
   std::vector<std::optional<Pose>> in_map_;  // of each key frame: where it is in the map, if it is
-  std::vector<int> missing_;                 // the nearest last
+  std::vector<int> missing_;                 // to be put in, the nearest last
 };
 
 }  // namespace lego_loam_sc
