@@ -2,39 +2,19 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
-#include <optional>
 #include <set>
 #include <string>
-#include <vector>
 
 #include "app/health_log.hpp"
+#include "app/run_facts.hpp"
 #include "core/sensor_model.hpp"
 #include "core/settings.hpp"
 #include "io/append_file.hpp"
 #include "io/dataset_facts.hpp"
-#include "io/trajectory.hpp"
 #include "slam/report.hpp"
 #include "slam/slam.hpp"
 
 namespace lego_loam_sc {
-
-struct NamedTruth {
-  std::string file;
-  PoseFile poses;
-};
-
-/// What `summary.json` says of the run besides what the SLAM knows.
-struct RunFacts {
-  std::string input;
-  std::string method;
-  std::string sensor;
-  int threads = 1;
-  double wall_seconds = 0.0;
-  bool interrupted = false;
-  std::vector<std::string> faults;  ///< of the input, a sentence each
-  std::optional<NamedTruth> truth;
-};
 
 /// Writes the folder of a run: scans.csv, loops.csv and odometry.tum as results come, the rest at
 /// the end. docs/output.md lists the columns.
@@ -46,6 +26,7 @@ class ResultWriter {
   /// them instead.
   void begin();
 
+  /// Writes the lines of the next scan.
   void add(const ScanReport& report);
 
   /// Writes the files that need the whole run. Returns the summary as text for the terminal. Throws
@@ -56,8 +37,7 @@ class ResultWriter {
   /// See core/state_archive.hpp.
   template <class Archive>
   void state(Archive& archive) {
-    archive(scans_, loops_, odometry_, health_, loop_key_frames_, scan_count_, accepted_loops_,
-            refused_loops_, statuses_, stamp_jumps_, first_jump_);
+    archive(scans_, loops_, odometry_, health_, loop_key_frames_, counts_);
   }
 
  private:
@@ -69,12 +49,7 @@ class ResultWriter {
   AppendFile loops_;
   AppendFile odometry_;
   std::set<int> loop_key_frames_;  ///< of accepted loops
-  std::size_t scan_count_ = 0;
-  std::size_t accepted_loops_ = 0;
-  std::size_t refused_loops_ = 0;
-  std::map<std::string, std::size_t> statuses_;
-  std::size_t stamp_jumps_ = 0;
-  std::string first_jump_;
+  RunCounts counts_;
 };
 
 }  // namespace lego_loam_sc

@@ -17,8 +17,8 @@
 #include "app/progress.hpp"
 #include "app/result_writer.hpp"
 #include "app/run_folder.hpp"
+#include "app/run_input.hpp"
 #include "app/scan_input.hpp"
-#include "app/scan_prefetcher.hpp"
 #include "io/blob_file.hpp"
 #include "io/error.hpp"
 #include "io/recognise_sensor.hpp"
@@ -41,89 +41,6 @@ struct Options : InputOptions {
   bool report = false;
   bool quiet = false;
 };
-
-// The scans of a source from --first on, at most --count of them; reads ahead when there is a
-// thread for it.
-class Input {
- public:
-  explicit Input(const Options& options) : input_(options, options.quiet), left_(options.count) {
-    for (std::size_t k = 0; k < options.first; ++k)
-      if (!read_next(input_.source())) break;
-    if (options.threads > 1) prefetcher_.emplace(input_.source());
-  }
-
-  std::optional<ScanOrFault> next() {
-    if (left_ && *left_ == 0) return std::nullopt;
-    if (left_) --*left_;
-    std::optional<ScanOrFault> item =
-        prefetcher_ ? prefetcher_->next() : read_next(input_.source());
-    at_end_ = !item && !interrupted();
-    if (item) ++taken_;
-    return item;
-  }
-
-  // How many next() has given, faults among them.
-  std::size_t taken() const { return taken_; }
-
-  // How the reader of a recording ended: 0 when it did well, is not done or there is none.
-  int reader_exit_code() { return at_end_ ? input_.wait_for_reader() : 0; }
-
-  const ScanSource& source() const { return input_.source(); }
-
- private:
-  ScanInput input_;
-  std::optional<std::size_t> left_;
-  std::size_t taken_ = 0;
-  bool at_end_ = false;
-  std::optional<ScanPrefetcher> prefetcher_;
-};
-
-// Faults of the input are said as they come and make the exit code 1, but end nothing.
-void note_fault(const std::string& sentence, RunFacts& facts) {
-  spdlog::error("{}", sentence);
-  facts.faults.push_back(sentence);
-}
-
-std::optional<Scan> next_scan(Input& input, RunFacts& facts) {
-  while (auto item = input.next()) {
-    if (auto* scan = std::get_if<Scan>(&*item)) return std::move(*scan);
-    if (interrupted()) return std::nullopt;  // it cut the read off, the input is not to blame
-    note_fault(std::get<std::string>(*item), facts);
-  }
-  return std::nullopt;
-}
-
-// What the reader of a recording found wrong, which it has said itself unless it broke off. False
-// when there is nothing.
-bool note_reader_fault(Input& input, RunFacts& facts) {
-  const int exit_code = input.reader_exit_code();
-  if (exit_code == 1)
-    facts.faults.push_back(facts.input + " was not read in full, lego-loam-sc-read said why");
-  else if (exit_code != 0)
-    note_fault(facts.input + ": lego-loam-sc-read broke off with code " +
-                   std::to_string(exit_code) + "; the scans before that count",
-               facts);
-  return exit_code != 0;
-}
-
-// The scans up to the first that shows enough to tell the sensor by: a recording may start blind.
-std::deque<Scan> leading_scans(Input& input, RunFacts& facts) {
-  constexpr std::size_t kTelling = 1000;  // points
-  std::deque<Scan> leading;
-  while (leading.empty() || leading.back().size() < kTelling) {
-    std::optional<Scan> scan = next_scan(input, facts);
-    if (!scan) break;
-    leading.push_back(std::move(*scan));
-  }
-  return leading;
-}
-
-std::optional<std::size_t> expected_scans(const ScanSource& source, const Options& options) {
-  const std::optional<std::size_t> size = source.size();
-  if (!size) return options.count;
-  const std::size_t rest = *size - std::min(*size, options.first);
-  return options.count ? std::min(rest, *options.count) : rest;
-}
 
 double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -155,7 +72,7 @@ struct Bookmark {
 
 // Goes on from the checkpoint. `mark` is where the run is: it has settings, sensor and the last
 // scan taken.
-void resume(const Options& options, Checkpoint& checkpoint, Input& input, ResultWriter& writer,
+void resume(const Options& options, Checkpoint& checkpoint, RunInput& input, ResultWriter& writer,
             Slam& slam, Bookmark& mark) {
   Bookmark saved;
   checkpoint.load([&](StateReader& reader) {
@@ -167,12 +84,8 @@ void resume(const Options& options, Checkpoint& checkpoint, Input& input, Result
     reader(writer);
     slam.read(reader);
   });
-  while (input.taken() < saved.taken) {
-    const std::optional<ScanOrFault> item = input.next();
-    if (!item) break;
-    if (const auto* scan = std::get_if<Scan>(&*item)) mark.stamp_ns = scan->stamp_ns;
-  }
-  if (!interrupted() && (input.taken() != saved.taken || mark.stamp_ns != saved.stamp_ns))
+  const std::int64_t stamp_ns = input.skip_to(saved.taken, saved.faults).value_or(mark.stamp_ns);
+  if (!interrupted() && (input.taken() != saved.taken || stamp_ns != saved.stamp_ns))
     throw InputError(options.output->string() + ": was begun with other scans than those of " +
                      options.input + "; give the same INPUT, --first and --count to resume it");
   mark = std::move(saved);
@@ -188,9 +101,9 @@ void run(const Options& options, int& exit_code) {
   facts.threads = options.threads;
   if (options.truth) facts.truth = {options.truth->string(), read_poses(*options.truth)};
 
-  Input input(options);
-  std::deque<Scan> scans = leading_scans(input, facts);
-  if (scans.empty() && note_reader_fault(input, facts)) {
+  RunInput input(options, options.count, options.threads > 1, options.quiet);
+  std::deque<Scan> scans = input.leading();
+  if (scans.empty() && !input.finish_reader()) {
     exit_code = 1;
     return;
   }
@@ -214,7 +127,6 @@ void run(const Options& options, int& exit_code) {
   Bookmark mark{to_yaml(settings), to_yaml(sensor), 0, scans.back().stamp_ns, {}, 0.0};
   if (checkpoint.holds_state()) {
     resume(options, checkpoint, input, writer, slam, mark);
-    facts.faults = mark.faults;
     scans.clear();
   } else {
     writer.begin();
@@ -222,10 +134,10 @@ void run(const Options& options, int& exit_code) {
   const double wall_seconds_before = mark.wall_seconds;
   auto saved = std::chrono::steady_clock::now();
   {
-    Progress progress(expected_scans(input.source(), options), options.quiet);
+    Progress progress(input.expected(), options.quiet);
     while (!interrupted()) {
       if (scans.empty()) {
-        std::optional<Scan> scan = next_scan(input, facts);
+        std::optional<Scan> scan = input.next();
         if (!scan) break;
         scans.push_back(std::move(*scan));
       }
@@ -235,7 +147,7 @@ void run(const Options& options, int& exit_code) {
       scans.pop_front();
       if (!scans.empty() || seconds_since(saved) < options.checkpoint_seconds) continue;
       mark.taken = input.taken();
-      mark.faults = facts.faults;
+      mark.faults = input.faults();
       mark.wall_seconds = wall_seconds_before + seconds_since(begin);
       checkpoint.save([&](StateWriter& state) {
         state(mark, writer);
@@ -244,7 +156,8 @@ void run(const Options& options, int& exit_code) {
       saved = std::chrono::steady_clock::now();
     }
   }
-  note_reader_fault(input, facts);
+  input.finish_reader();
+  facts.faults = input.faults();
   facts.interrupted = interrupted();
   facts.wall_seconds = wall_seconds_before + seconds_since(begin);
   const std::string summary = writer.finish(slam, dataset, facts);

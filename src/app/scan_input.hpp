@@ -6,8 +6,12 @@
 #include <optional>
 #include <string>
 
-#include "app/external_command.hpp"
+#include "app/recording_reader.hpp"
 #include "io/scan_source.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace lego_loam_sc {
 

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/run_input.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <utility>
+#include <variant>
+
+#include "app/interrupt.hpp"
+
+namespace lego_loam_sc {
+
+RunInput::RunInput(const InputOptions& options, std::optional<std::size_t> count, bool read_ahead,
+                   bool quiet)
+    : options_(options), count_(count), input_(options, quiet) {
+  for (std::size_t k = 0; k < options.first; ++k)
+    if (!read_next(input_.source())) break;
+  if (read_ahead) prefetcher_.emplace(input_.source());
+}
+
+std::optional<ScanOrFault> RunInput::take() {
+  if (count_ && taken_ == *count_) return std::nullopt;
+  std::optional<ScanOrFault> item = prefetcher_ ? prefetcher_->next() : read_next(input_.source());
+  at_end_ = !item && !interrupted();
+  if (item) ++taken_;
+  return item;
+}
+
+void RunInput::note(const std::string& fault) {
+  spdlog::error("{}", fault);
+  faults_.push_back(fault);
+}
+
+std::optional<Scan> RunInput::next() {
+  while (auto item = take()) {
+    if (auto* scan = std::get_if<Scan>(&*item)) return std::move(*scan);
+    if (interrupted()) return std::nullopt;  // it cut the read off, the input is not to blame
+    note(std::get<std::string>(*item));
+  }
+  return std::nullopt;
+}
+
+std::deque<Scan> RunInput::leading() {
+  constexpr std::size_t kTelling = 1000;  // points
+  std::deque<Scan> scans;
+  while (scans.empty() || scans.back().size() < kTelling) {
+    std::optional<Scan> scan = next();
+    if (!scan) break;
+    scans.push_back(std::move(*scan));
+  }
+  return scans;
+}
+
+std::optional<std::int64_t> RunInput::skip_to(std::size_t taken, std::vector<std::string> faults) {
+  std::optional<std::int64_t> stamp_ns;
+  while (taken_ < taken) {
+    const std::optional<ScanOrFault> item = take();
+    if (!item) break;
+    if (const auto* scan = std::get_if<Scan>(&*item)) stamp_ns = scan->stamp_ns;
+  }
+  faults_ = std::move(faults);
+  return stamp_ns;
+}
+
+bool RunInput::finish_reader() {
+  const int exit_code = at_end_ ? input_.wait_for_reader() : 0;
+  if (exit_code == 1)  // it has said itself what it found
+    faults_.push_back(options_.input + " was not read in full, lego-loam-sc-read said why");
+  else if (exit_code != 0)
+    note(options_.input + ": lego-loam-sc-read broke off with code " + std::to_string(exit_code) +
+         "; the scans before that count");
+  return exit_code == 0;
+}
+
+std::optional<std::size_t> RunInput::expected() const {
+  const std::optional<std::size_t> size = input_.source().size();
+  if (!size) return count_;
+  const std::size_t rest = *size - std::min(*size, options_.first);
+  return count_ ? std::min(rest, *count_) : rest;
+}
+
+}  // namespace lego_loam_sc
