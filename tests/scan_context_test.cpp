@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/pose.hpp"
-#include "loop/ring_key_index.hpp"
+#include "loop/scan_context_index.hpp"
 
 namespace lego_loam_sc {
 namespace {

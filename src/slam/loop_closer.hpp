@@ -10,7 +10,7 @@
 #include "loop/key_frames.hpp"
 #include "loop/loop_candidate.hpp"
 #include "loop/loop_detector.hpp"
-#include "loop/ring_key_index.hpp"
+#include "loop/scan_context_index.hpp"
 #include "slam/pieces.hpp"
 #include "slam/report.hpp"
 

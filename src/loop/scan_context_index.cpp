@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "loop/ring_key_index.hpp"
+#include "loop/scan_context_index.hpp"
 
 #include <algorithm>
 #include <array>
