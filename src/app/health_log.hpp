@@ -10,23 +10,26 @@
 
 namespace lego_loam_sc {
 
-/// The health of the scans of a run, each and in sum.
+/// The health of the scans of a run, each and in sum. The delay stands apart throughout: it alone
+/// depends on the machine and differs from run to run, and what does not is compared byte by byte.
 class HealthLog {
  public:
   explicit HealthLog(const SensorModel& sensor) : sensor_(sensor) {}
 
-  /// What scans.csv says about a scan: names of the vitals at their warning and error levels,
-  /// separated by blanks. Those of the delay, which differs from run to run, stand apart.
+  /// What scans.csv says of the health of a scan.
   struct Line {
-    std::string warnings, errors;
-    double delay_ms;
-    HealthLevel delay_level;
+    std::string warnings;     ///< names of the vitals at this level, separated by blanks
+    std::string errors;       ///< the same
+    double delay_ms;          ///< by which a live run would be behind the sensor
+    HealthLevel delay_level;  ///< of `delay_ms`
   };
+  /// Judges the next scan.
   Line add(const ScanReport& report);
 
-  /// Levels, counts and the worst value of a vital; null for one that no scan had.
+  /// Of one vital over all scans: its levels, how many scans were at each, and its worst value with
+  /// the scan that had it, null when no scan had any.
   nlohmann::ordered_json to_json(Vital vital) const;
-  /// The same of all but the delay.
+  /// The same of each vital by its name, but of the delay.
   nlohmann::ordered_json to_json() const;
 
   /// A line for the terminal for each vital that was not always ok.
@@ -39,6 +42,7 @@ class HealthLog {
   }
 
  private:
+  // Of a vital over all scans so far.
   struct Sum {
     std::size_t warnings = 0;
     std::size_t errors = 0;
@@ -55,8 +59,8 @@ class HealthLog {
 
   SensorModel sensor_;
   std::array<Sum, kVitals> sums_;
-  std::optional<std::int64_t> stamp_ns_;
-  double delay_s_ = 0.0;
+  std::optional<std::int64_t> stamp_ns_;  // of the last scan
+  double delay_s_ = 0.0;                  // after it
 };
 
 }  // namespace lego_loam_sc

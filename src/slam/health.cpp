@@ -23,12 +23,10 @@ constexpr std::array<VitalLimits, kVitals> kLimits = {{
     // two; at ten the points lie beside the surfaces.
     {"residual", "sigma", 5, 10, false},
     // Directions of translation and rotation that the scan does not hold: one, as along a tunnel,
-    // is
-    // carried over by the prediction, with more the pose floats.
+    // is carried over by the prediction, with more the pose floats.
     {"degeneracy", "directions", 1, 2, false},
     // Metres between the predicted and the found position. Within a turn of 0.1 s three times
-    // gravity
-    // makes 0.3 m; at 1 m the search may end in the wrong place.
+    // gravity makes 0.3 m; at 1 m the search may end in the wrong place.
     {"prediction", "m", 0.3, 1, false},
     // Seconds behind a live sensor: one turn waits, or ten do and a driver begins to drop them.
     {"delay", "s", 0.1, 1, false},

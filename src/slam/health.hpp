@@ -15,16 +15,18 @@ namespace lego_loam_sc {
 enum class Vital { points, features, inliers, residual, degeneracy, prediction, delay };
 constexpr std::size_t kVitals = 7;
 
+/// What a value of a vital is judged as.
 enum class HealthLevel { ok, warning, error };
 constexpr std::string_view to_string(HealthLevel level) {
   return level == HealthLevel::ok ? "ok" : level == HealthLevel::warning ? "warning" : "error";
 }
 
+/// Where a vital begins to be bad.
 struct VitalLimits {
-  std::string_view name;
-  std::string_view unit;
-  double warning;  ///< from here on, downwards when `low_is_bad`
-  double error;    ///< farther in the same direction
+  std::string_view name;  ///< as in scans.csv and summary.json
+  std::string_view unit;  ///< of the levels; empty for counts
+  double warning;         ///< from here on, downwards when `low_is_bad`
+  double error;           ///< farther in the same direction
   bool low_is_bad;
 };
 
