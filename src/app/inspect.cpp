@@ -61,7 +61,7 @@ std::string percent(std::size_t part, std::size_t whole) {
 std::vector<Eigen::Vector3f> returns_of(const Scan& scan) {
   std::vector<Eigen::Vector3f> points;
   for (const Eigen::Vector3f& p : scan.points)
-    if (p.allFinite() && !p.isZero()) points.push_back(p);
+    if (is_return(p)) points.push_back(p);
   return points;
 }
 

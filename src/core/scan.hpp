@@ -21,4 +21,9 @@ struct Scan {
   std::size_t size() const { return points.size(); }
 };
 
+/// Whether the sensor got a return for a point.
+inline bool is_return(const Eigen::Vector3f& point) {
+  return point.allFinite() && !point.isZero(0.0F);
+}
+
 }  // namespace lego_loam_sc

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "core/pose.hpp"
-#include "io/raw_scan.hpp"
 #include "io/text.hpp"
 #include "segmentation/storage_order.hpp"
 
@@ -73,12 +72,6 @@ Beams measure(std::span<const Scan> scans, const std::vector<std::vector<int>>& 
     }
   }
   return beams;
-}
-
-std::vector<std::uint8_t> returns_of(const Scan& scan) {
-  std::vector<std::uint8_t> returns(scan.size());
-  std::ranges::transform(scan.points, returns.begin(), is_return);
-  return returns;
 }
 
 using Histogram = std::vector<double>;
@@ -172,6 +165,12 @@ bool are_rings(const Beams& beams) {
 
 }  // namespace
 
+std::vector<std::int16_t> stored_rings(const Scan& scan) {
+  std::vector<std::uint8_t> returns(scan.size());
+  std::ranges::transform(scan.points, returns.begin(), is_return);
+  return rings_of_storage_order(scan, returns);
+}
+
 Beams beams_of_rings(std::span<const Scan> scans) {
   std::vector<std::vector<int>> labels;
   bool told_apart = false;
@@ -188,7 +187,7 @@ Beams beams_of_storage_order(std::span<const Scan> scans) {
   std::map<int, int> scans_with;  // so many rings
   std::vector<int> rings;
   for (const Scan& scan : scans) {
-    const std::vector<std::int16_t> ring = rings_of_storage_order(scan, returns_of(scan));
+    const std::vector<std::int16_t> ring = stored_rings(scan);
     labels.emplace_back(ring.begin(), ring.end());
     labels.back().resize(scan.size(), -1);
     rings.push_back(ring.empty() ? 0 : 1 + *std::ranges::max_element(ring));

@@ -20,6 +20,10 @@ struct Beams {
   bool empty() const { return elevation_deg.empty(); }
 };
 
+/// The ring of each point by the order of storage, see rings_of_storage_order(): -1 for those
+/// without return; nothing when the scan is stored in another order.
+std::vector<std::int16_t> stored_rings(const Scan& scan);
+
 /// By the ring field; none when it is missing or the same everywhere.
 Beams beams_of_rings(std::span<const Scan> scans);
 

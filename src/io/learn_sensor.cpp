@@ -10,7 +10,6 @@
 #include "core/pose.hpp"
 #include "io/beams.hpp"
 #include "io/error.hpp"
-#include "io/raw_scan.hpp"
 #include "io/recognise_sensor.hpp"
 #include "io/text.hpp"
 
@@ -52,8 +51,8 @@ Beams find_beams(std::span<const Scan> scans, std::vector<std::string>& notes) {
         std::to_string(count_returns(scans)) +
         " points without ring numbers do not gather on lines of one elevation: either the sensor "
         "does not spin, as a Livox or a solid-state LiDAR, whose scans have no rings to work on, "
-        "or "
-        "the points were moved since; give the scans as the driver made them, with their rings");
+        "or the points were moved since; give the scans as the driver made them, with their "
+        "rings");
   for (double& elevation : beams.elevation_deg) elevation = std::round(1e3 * elevation) / 1e3;
   notes.push_back(std::to_string(beams.elevation_deg.size()) + " beams between " +
                   to_fixed(beams.elevation_deg.front(), 2) + " and " +

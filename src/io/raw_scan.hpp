@@ -65,9 +65,4 @@ RawScan assemble(std::span<const Column> columns, std::size_t count, const std::
 std::vector<double> take_numbers(std::string_view& rest, std::size_t count, std::size_t width,
                                  const std::string& file);
 
-/// A point that the sensor got a return for: neither NaN nor all zeros.
-inline bool is_return(const Eigen::Vector3f& p) {
-  return p.allFinite() && !p.isZero(0.0F);
-}
-
 }  // namespace lego_loam_sc

@@ -11,11 +11,9 @@
 #include "io/beams.hpp"
 #include "io/error.hpp"
 #include "io/preset_text.hpp"
-#include "io/raw_scan.hpp"
 #include "io/sensor_yaml.hpp"
 #include "io/text.hpp"
 #include "segmentation/row_assignment.hpp"
-#include "segmentation/storage_order.hpp"
 
 namespace lego_loam_sc {
 namespace {
@@ -88,9 +86,7 @@ std::size_t count_rings(const Scan& scan) {
 }
 
 std::size_t count_stored_rings(const Scan& scan) {
-  std::vector<std::uint8_t> returns(scan.size());
-  std::ranges::transform(scan.points, returns.begin(), is_return);
-  const std::vector<std::int16_t> ring = rings_of_storage_order(scan, returns);
+  const std::vector<std::int16_t> ring = stored_rings(scan);
   return ring.empty() ? 0 : static_cast<std::size_t>(1 + *std::ranges::max_element(ring));
 }
 
