@@ -264,7 +264,10 @@ TEST(Lzf, RefusesDamagedData) {
 TEST(CloudWriter, WritesWhatTheReadersRead) {
   const TemporaryFolder folder;
   const std::vector<MapPoint> points = {{{1, 2, 3}, 0.5F, 0}, {{-1.25F, 1e6F, 0}, 255, 70000}};
-  write_pcd(folder.path() / "map.pcd", points);
+  CloudFile pcd(folder.path() / "map.pcd", CloudFormat::pcd);
+  pcd.add({points.data(), 1});
+  pcd.add({points.data() + 1, 1});
+  pcd.commit();
   write_ply(folder.path() / "map.ply", points);
   for (const RawScan& raw :
        {read_pcd(folder.path() / "map.pcd"), read_ply(folder.path() / "map.ply")}) {

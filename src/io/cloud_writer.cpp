@@ -64,12 +64,6 @@ void write_ply(const std::filesystem::path& path, std::span<const MapPoint> poin
   file.commit();
 }
 
-void write_pcd(const std::filesystem::path& path, std::span<const MapPoint> points) {
-  CloudFile file(path, CloudFormat::pcd);
-  file.add(points);
-  file.commit();
-}
-
 void write_ply(const std::filesystem::path& path, std::string_view properties, std::size_t count,
                std::string_view bytes) {
   AtomicFile file(path);

@@ -13,6 +13,7 @@ namespace lego_loam_sc {
 // Binary little-endian files. They replace an old file at once and throw InputError when that
 // fails.
 
+/// What CloudFile writes.
 enum class CloudFormat { ply, pcd };
 
 /// x y z (m), intensity (float32) and key_frame (int32) of points that come bit by bit.
@@ -32,11 +33,8 @@ class CloudFile {
   std::size_t count_ = 0;
 };
 
-/// The same of points that are all at hand.
-/// @{
+/// The same of points that are all at hand, as PLY.
 void write_ply(const std::filesystem::path& path, std::span<const MapPoint> points);
-void write_pcd(const std::filesystem::path& path, std::span<const MapPoint> points);
-/// @}
 
 /// A PLY file of any properties: their lines in the header, each with its end of line, and the
 /// bytes of `count` points, of which each holds them in that order without padding.
