@@ -111,7 +111,7 @@ Drive parking2_drive(const DriveSettings& settings) {
   const auto way_down = [](double x, double) { return kDown.height(x); };
   const auto way_up = [](double x, double) { return kUp.height(x); };
   const std::vector<Ground> grounds = {floor, way_down, floor_below, way_up, floor};
-  std::vector<Stretch> stretches;
+  std::vector<GroundStretch> stretches;
   double distance = 0.0;
   for (std::size_t i = 0; i < grounds.size(); ++i) {
     if (i > 0) distance = passage(route, passages[i - 1], distance);

@@ -65,9 +65,9 @@ Pose pose_on_ground(const Ground& ground, const Route::Point& point, double whee
 }  // namespace
 
 Drive::Drive(Route route, Ground ground, const DriveSettings& settings)
-    : Drive(std::move(route), std::vector<Stretch>{{0.0, std::move(ground)}}, settings) {}
+    : Drive(std::move(route), std::vector<GroundStretch>{{0.0, std::move(ground)}}, settings) {}
 
-Drive::Drive(Route route, std::vector<Stretch> stretches, const DriveSettings& settings)
+Drive::Drive(Route route, std::vector<GroundStretch> stretches, const DriveSettings& settings)
     : route_(std::move(route)),
       stretches_(std::move(stretches)),
       wheel_base_(settings.wheel_base),
@@ -92,7 +92,7 @@ Pose Drive::pose(std::int64_t time_ns) const {
 }
 
 const Ground& Drive::ground_at(double distance) const {
-  const auto next = std::ranges::upper_bound(stretches_, distance, {}, &Stretch::start);
+  const auto next = std::ranges::upper_bound(stretches_, distance, {}, &GroundStretch::start);
   return std::prev(next)->ground;
 }
 

@@ -12,6 +12,7 @@
 
 namespace lego_loam_sc {
 
+/// How a vehicle drives, and what it drives with.
 struct DriveSettings {
   double speed = 1.5;                 ///< m/s on straights
   double acceleration = 0.5;          ///< m/s^2, for braking too
@@ -24,7 +25,7 @@ struct DriveSettings {
 
 /// The ground from a place of a route on. A way that passes over itself, as on two storeys, needs
 /// several; where one takes over, both must be the same as far as the vehicle reaches.
-struct Stretch {
+struct GroundStretch {
   double start;  ///< m along the route, ascending, 0 for the first
   Ground ground;
 };
@@ -33,9 +34,11 @@ struct Stretch {
 /// continuous velocities.
 class Drive {
  public:
-  Drive(Route route, std::vector<Stretch> stretches, const DriveSettings& settings);
+  Drive(Route route, std::vector<GroundStretch> stretches, const DriveSettings& settings);
+  /// With the same ground all the way.
   Drive(Route route, Ground ground, const DriveSettings& settings);
 
+  /// Until it is at rest at the end of the route.
   std::int64_t duration_ns() const;
 
   /// T_world_vehicle; the vehicle frame lies on the ground in the middle of the wheels. Before the
@@ -48,12 +51,13 @@ class Drive {
   Pose shaking_at(double time) const;
 
   Route route_;
-  std::vector<Stretch> stretches_;
+  std::vector<GroundStretch> stretches_;
   double wheel_base_, track_width_;
   std::vector<double> speeds_, times_;  // at equal distances along the route
   ShakingMotion shaking_;
 };
 
+/// The drive as the motion of a world's vehicle.
 Motion motion_of(Drive drive);
 
 }  // namespace lego_loam_sc

@@ -15,10 +15,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Camera axes: x right, y down, z forward.
-Pose camera_from_lidar() {
+// The camera is where the LiDAR is.
+Pose make_T_camera_lidar() {
   Pose T_camera_lidar = Pose::Identity();
-  T_camera_lidar.linear() << 0, -1, 0, 0, 0, -1, 1, 0, 0;
+  T_camera_lidar.linear() = R_camera_lidar();
   return T_camera_lidar;
 }
 
@@ -40,13 +40,19 @@ std::string bin_bytes(const Scan& scan) {
 
 }  // namespace
 
+Eigen::Matrix3d R_camera_lidar() {
+  Eigen::Matrix3d axes;
+  axes << 0, -1, 0, 0, 0, -1, 1, 0, 0;
+  return axes;
+}
+
 KittiFolder::KittiFolder(const fs::path& folder, const DatasetFacts& facts) : folder_(folder) {
   std::error_code error;
   if (fs::exists(folder_, error) && !fs::is_empty(folder_, error))
     throw InputError(folder_.string() + " is not an empty folder, give a new one");
   fs::create_directories(folder_ / "velodyne", error);
   if (error) throw InputError(folder_.string() + " cannot be made: " + error.message());
-  write_file(folder_ / "calib.txt", "Tr: " + kitti_line(camera_from_lidar()));
+  write_file(folder_ / "calib.txt", "Tr: " + kitti_line(make_T_camera_lidar()));
   write_dataset_yaml(folder_, facts);
   times_.open(folder_ / "times.txt");
   poses_.open(folder_ / "poses.txt");
@@ -55,7 +61,7 @@ KittiFolder::KittiFolder(const fs::path& folder, const DatasetFacts& facts) : fo
 
 void KittiFolder::add(const Scan& scan, const Pose& T_world_lidar) {
   if (scans_ == 0) T_first_world_ = T_world_lidar.inverse();
-  const Pose T_camera_lidar = camera_from_lidar();
+  const Pose T_camera_lidar = make_T_camera_lidar();
   write_file(folder_ / "velodyne" / bin_name(scans_), bin_bytes(scan));
   times_ << to_seconds(scan.stamp_ns) << '\n' << std::flush;
   poses_ << kitti_line(T_camera_lidar * T_first_world_ * T_world_lidar * T_camera_lidar.inverse())

@@ -13,10 +13,12 @@
 
 namespace lego_loam_sc {
 
+/// What happens to the echoes.
 struct LidarSettings {
-  bool distort = true;  ///< each column is measured from the pose at its own firing time; off:
-                        ///< all from the pose at the stamp, as after perfect motion compensation
-  double noise = 0.0;   ///< m; one sigma of the range
+  /// Each column is measured from the pose at its own firing time; off: all from the pose at the
+  /// stamp, as after perfect motion compensation.
+  bool distort = true;
+  double noise = 0.0;           ///< m; one sigma of the range
   BeamErrors beam_errors = {};  ///< none: the beams are as the sensor model says
   bool drop_outs = true;        ///< weak echoes get lost
   std::uint64_t seed = 0;
@@ -36,9 +38,9 @@ Pose mounting(const SensorModel& sensor, double default_height);
 /// of the sensor model, from the lowest. All beams of a column fire together, the columns at equal
 /// intervals from the start azimuth; traffic moves on from column to column, in a scan without
 /// distortion too. The points lie in the directions that the model says, whatever the errors of the
-/// beams. Directions without an echo are left out. `intensity` is
-/// reflectivity times the cosine of the incidence, 0 to 1. Noise and drop-outs depend on the seed,
-/// the stamp and the beam alone, not on the number of threads.
+/// beams. Directions without an echo are left out. `intensity` is reflectivity times the cosine of
+/// the incidence, 0 to 1. Noise and drop-outs depend on the seed, the stamp and the beam alone, not
+/// on the number of threads.
 Scan sweep(const RayCaster& world, const SensorModel& sensor, const LidarPose& lidar_pose,
            std::int64_t stamp_ns, const LidarSettings& settings,
            const Traffic& traffic = Traffic());

@@ -22,7 +22,7 @@ struct Hit {
 /// triangle, in single precision; the range is computed in double precision from its plane.
 class RayCaster {
  public:
-  /// @throws std::runtime_error when Embree cannot hold the mesh.
+  /// Throws std::runtime_error when Embree cannot hold the mesh.
   explicit RayCaster(const Mesh& mesh);
   ~RayCaster();
   RayCaster(RayCaster&&) noexcept;

@@ -10,6 +10,7 @@
 #include "io/error.hpp"
 #include "io/text.hpp"
 #include "io/trajectory.hpp"
+#include "sim/kitti_folder.hpp"
 
 namespace lego_loam_sc {
 namespace {
@@ -24,13 +25,6 @@ constexpr double kMinLength = 20.0;      // m
 constexpr double kMaxExtent = 4000.0;    // m; the city is as large as the route
 constexpr double kMaxSpeed = 60.0;       // m/s
 constexpr double kLongest = 4 * 3600.0;  // s
-
-// LiDAR axes (x forward, y left, z up) to camera axes (x right, y down, z forward).
-Eigen::Matrix3d camera_from_lidar() {
-  Eigen::Matrix3d axes;
-  axes << 0, -1, 0, 0, 0, -1, 1, 0, 0;
-  return axes;
-}
 
 double seconds(std::int64_t ns) {
   return static_cast<double>(ns) * 1e-9;
@@ -121,7 +115,7 @@ std::vector<Sample> smoothed(const std::vector<Sample>& samples, double period) 
 Trajectory read_route(const std::filesystem::path& path) {
   PoseFile file = read_poses(path);
   if (!file.has_stamps) {
-    const Eigen::Matrix3d axes = camera_from_lidar();
+    const Eigen::Matrix3d axes = R_camera_lidar();
     for (StampedPose& stamped : file.poses) {
       stamped.stamp_ns *= 100'000'000;
       stamped.pose.translation() = axes.transpose() * stamped.pose.translation();

@@ -25,11 +25,13 @@ Trajectory read_route(const std::filesystem::path& path);
 /// is too short, too wide, faster than any car or its stamps do not rise.
 Track make_track(const Trajectory& route);
 
-/// The same way by distance.
+/// The way of a track by distance.
 struct Way {
   UniformSpline<Eigen::Vector2d> path;  ///< x, y (m) over the length travelled (m)
   UniformSpline<double> travelled;      ///< m, over time (s)
 };
+
+/// Measures how far a track has led at each time.
 Way way_of(const Track& track);
 
 }  // namespace lego_loam_sc

@@ -28,15 +28,17 @@ struct World {
 /// A line of the table of worlds.
 struct WorldKind {
   std::string_view name;
-  std::string_view description;
-  World (*make)(std::uint64_t seed) = nullptr;  ///< none: it needs a route
-  World (*make_along)(std::uint64_t seed,
-                      const Trajectory& route) = nullptr;  ///< none: has its own
+  std::string_view description;  ///< for the help of the program
+  /// None: it needs a route.
+  World (*make)(std::uint64_t seed) = nullptr;
+  /// None: it has a way of its own.
+  World (*make_along)(std::uint64_t seed, const Trajectory& route) = nullptr;
 };
 
+/// All worlds.
 std::span<const WorldKind> world_kinds();
 
-/// Throws InputError for an unknown name.
+/// The world of a name. Throws InputError for an unknown one.
 const WorldKind& world_kind(std::string_view name);
 
 /// Builds a world; the same seed gives the same world. Throws InputError for an unknown name and
