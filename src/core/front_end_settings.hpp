@@ -159,7 +159,7 @@ struct MappingSettings {
     visit("match_points", s.match_points, 0, 100000,
           "in small spaces that voxel shrinks until about this many points are left; 0 = never");
     visit("associations", s.associations, 1, 100, "times that correspondences are searched anew");
-    visit("iterations", s.iterations, 1, 100, "Gauss-Newton steps for one association");
+    visit("iterations", s.iterations, 1, 100, "Levenberg-Marquardt steps for one association");
     visit("max_distance", s.max_distance, 0.05, 100.0,
           "m; a point farther from its surface is not used");
     visit("planarity", s.planarity, 0.0, 1.0,
