@@ -31,7 +31,7 @@ double rotation_angle(const Pose& pose);
 /// R <- Exp(delta.tail(3)) R, t <- t + delta.head(3).
 Pose perturb(const Pose& pose, const Vector6& delta);
 
-/// Rotates the nearest rotation matrix back into SO(3) after many products.
+/// The same with its rotation brought back into SO(3), which many products leave bit by bit.
 Pose normalized(const Pose& pose);
 
 /// R_z(yaw) R_y(pitch) R_x(roll), rad.
@@ -39,11 +39,14 @@ Eigen::Matrix3d rotation_from_rpy(double roll, double pitch, double yaw);
 /// roll, pitch, yaw of a rotation, rad; pitch in [-pi/2, pi/2].
 Eigen::Vector3d rpy_from_rotation(const Eigen::Matrix3d& rotation);
 
+/// An angle in the other unit.
+/// @{
 constexpr double radians(double degrees) {
   return degrees * 3.14159265358979323846 / 180.0;
 }
 constexpr double degrees(double radians) {
   return radians * 180.0 / 3.14159265358979323846;
 }
+/// @}
 
 }  // namespace lego_loam_sc

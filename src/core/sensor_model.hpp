@@ -22,8 +22,8 @@ struct SensorModel {
   bool motion_compensated = false;    ///< points are already moved to the stamp of their scan
   bool times_from_azimuth = false;  ///< raw sweeps without times: a point's azimuth tells its time
   double elevation_correction_deg = 0.0;  ///< added to the elevation angle of every point
-  std::vector<double>
-      row_correction_deg;  ///< added besides to those of a row; of no row when empty
+  /// Added besides to the elevation angles of a row, one per row; empty: to none.
+  std::vector<double> row_correction_deg;
   // Mounting: all zero = unknown, then estimated from the scans. Points are handled in levelled
   // axes, R_base_lidar = R_y(pitch) R_x(roll).
   double height = 0.0;  ///< m above the ground, 0 = unknown

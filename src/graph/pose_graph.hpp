@@ -113,7 +113,7 @@ class PoseGraph {
   void repeat_calls();
 
   std::unique_ptr<Solver> solver_;
-  std::vector<Call> calls_;  // that changed something
+  std::vector<Call> calls_;  // all, in their order
 };
 
 }  // namespace lego_loam_sc

@@ -10,6 +10,8 @@ namespace lego_loam_sc {
 
 static_assert(std::endian::native == std::endian::little, "files are written as memory has them");
 
+/// The value that lies at `bytes`, which need not be aligned.
+/// @{
 template <class T>
 T load(const char* bytes) {
   T value;
@@ -23,7 +25,9 @@ T load_big_endian(const char* bytes) {
   std::reverse_copy(bytes, bytes + sizeof(T), reversed);
   return load<T>(reversed);
 }
+/// @}
 
+/// Adds the bytes of `value` at the end.
 template <class T>
 void append(std::string& bytes, const T& value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof(T));

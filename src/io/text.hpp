@@ -25,6 +25,7 @@ std::optional<double> parse_double(std::string_view text);
 /// number or does not fit.
 std::optional<std::int64_t> parse_seconds(std::string_view text);
 
+/// The whole number that is all of `text`, or nothing when it is none or does not fit.
 template <class Integer>
 std::optional<Integer> parse_integer(std::string_view text) {
   Integer value{};
@@ -35,8 +36,10 @@ std::optional<Integer> parse_integer(std::string_view text) {
 }
 
 /// The shortest form that reads back as the same number.
+/// @{
 std::string to_text(double value);
 std::string to_text(int value);
+/// @}
 
 /// `value` with this many decimals.
 std::string to_fixed(double value, int decimals);

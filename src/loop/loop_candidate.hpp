@@ -14,7 +14,7 @@ struct LoopCandidate {
   int match = 0;  ///< key frame of the earlier visit, c* of equation (8)
   Detector detector = Detector::scan_context;
   double distance = 0.0;  ///< Scan Context: D of equation (5), in [0, 1]; radius search: m
-  double yaw = 0.0;       ///< not by the radius search: rad, T_match_query turns by about R_z(yaw)
+  double yaw = 0.0;       ///< rad, T_match_query turns by about R_z(yaw); 0 by the radius search
 };
 
 /// As it stands in loops.csv.

@@ -16,7 +16,7 @@ enum class Verdict {
   accepted,
   no_candidate,  ///< Scan Context distance above tau of equation (8)
   no_match,      ///< too few points of the query meet the local map
-  low_overlap,
+  low_overlap,   ///< too few of the query's points lie on a surface of the local map
   high_rmse,     ///< ICP score above the threshold
   implausible,   ///< height, roll or pitch differ more than two visits of one place can
   degenerate,    ///< the place does not fix the pose in all directions
