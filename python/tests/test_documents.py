@@ -21,7 +21,7 @@ PAGES = ["README.md", "CONTRIBUTING.md", *sorted(f"docs/{p.name}" for p in ROOT.
 ELSEWHERE = {
     r"scripts/(test|docs|fuzz)\b": ".ci/run does",
     r"scripts/build\b|cmake --preset release &&": "scripts/test does",
-    r"cmake --preset release -D|build/release/bench|scripts/bench": "compiles for minutes",
+    r"cmake --preset release -D|build/release/bench|scripts/(bench|lint)": "compiles for minutes",
     r"bench/(paper|peers)/run": "takes hours",
     r"pip install": "scripts/setup does for the readers, scripts/bindings for the rest",
     r"pipx run": "downloads its tools",
