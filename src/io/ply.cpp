@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/ply.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -26,9 +27,8 @@ struct Element {
   std::vector<Property> properties;
 
   bool has_list() const {
-    for (const Property& property : properties)
-      if (property.list_count) return true;
-    return false;
+    return std::ranges::any_of(properties,
+                               [](const Property& p) { return p.list_count.has_value(); });
   }
   std::size_t bytes() const {  // of one record, without lists
     std::size_t sum = 0;
@@ -132,7 +132,8 @@ void skip_binary(std::string_view& rest, const Element& element, bool big_endian
   if (element.properties.empty()) return;
   if (!element.has_list()) {
     if (element.count > rest.size() / element.bytes()) fail_short(element, file);
-    return skip(element.count * element.bytes());
+    skip(element.count * element.bytes());
+    return;
   }
   for (std::size_t i = 0; i < element.count; ++i) {
     for (const Property& property : element.properties) {

@@ -98,7 +98,8 @@ class FileSource : public ScanSource {
         const PointTimes times = interpret_point_times(raw.time, raw.time_type, hint, "");
         if (times.unit) return times.unit;
       } catch (const InputError&) {
-      }  // it is reported when its turn comes
+        continue;  // it is reported when its turn comes
+      }
     }
     return std::nullopt;
   }

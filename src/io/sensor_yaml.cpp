@@ -61,9 +61,10 @@ struct EvenBeams {
   std::optional<double> lowest_deg, highest_deg;
 
   bool any() const { return beams || lowest_deg || highest_deg; }
-  bool all() const { return beams && lowest_deg && highest_deg; }
 
-  std::vector<double> elevations() const {
+  // Nothing unless all three are there.
+  std::optional<std::vector<double>> elevations() const {
+    if (!beams || !lowest_deg || !highest_deg) return std::nullopt;
     std::vector<double> result;
     const int last = *beams - 1;
     for (int i = 0; i <= last; ++i)  // both ends exact
@@ -102,9 +103,10 @@ SensorModel parse_sensor_yaml(const std::string& text, const std::string& name,
   sensor.name = name;
   EvenBeams even;
   for (const YamlEntry& entry : parse_yaml(text, file)) apply(entry, sensor, even);
-  if (sensor.elevation_deg.empty() ? !even.all() : even.any())
+  const auto even_elevations = even.elevations();
+  if (sensor.elevation_deg.empty() ? !even_elevations : even.any())
     throw InputError(file + ": give either elevation_deg or all of beams, lowest_deg, highest_deg");
-  if (even.all()) sensor.elevation_deg = even.elevations();
+  if (even_elevations) sensor.elevation_deg = *even_elevations;
   if (const auto fault = validate(sensor)) throw InputError(file + ": " + *fault);
   return sensor;
 }

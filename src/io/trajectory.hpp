@@ -11,7 +11,7 @@
 namespace lego_loam_sc {
 
 /// A line of a TUM file: stamp (s), x y z (m), qx qy qz qw; nine decimals, with line end.
-std::string tum_line(const StampedPose& pose);
+std::string tum_line(const StampedPose& stamped);
 
 /// A line of a KITTI file: the upper three rows of the pose's matrix; nine decimals, with line end.
 std::string kitti_line(const Pose& pose);
