@@ -66,14 +66,18 @@ void expect_same_results(const fs::path& part, const fs::path& whole) {
   EXPECT_EQ(summary, expected);
 }
 
+void resume_to_the_same_results(const Shell& shell) {
+  shell.must(kRun + " --resume");
+  expect_same_results(shell.folder() / "part", shell.folder() / "whole");
+}
+
 TEST(Resume, AfterAKillEndsWithTheResultsOfAnUninterruptedRun) {
   const Shell shell;
   prepare(shell);
   for (const int scans : {0, 1, 2, 13, kScans - 2}) {
     kill_after(shell, scans);
     EXPECT_FALSE(fs::exists(shell.folder() / "part/summary.json"));
-    shell.must(kRun + " --resume");
-    expect_same_results(shell.folder() / "part", shell.folder() / "whole");
+    resume_to_the_same_results(shell);
     shell.must("rm -r part");
   }
 }
@@ -85,8 +89,7 @@ TEST(Resume, AfterManyKillsEndsWithTheSameResults) {
   shell.must("for wait in 0.01 0.02 0.04 0.07 0.11 0.16 0.05 0.09 0.12; do " + kRun +
              " --resume & sleep $wait; kill -9 $!; wait; done 2>/dev/null; true");
   if (fs::exists(shell.folder() / "part/checkpoint") || !fs::exists(shell.folder() / "part"))
-    shell.must(kRun + " --resume");
-  expect_same_results(shell.folder() / "part", shell.folder() / "whole");
+    resume_to_the_same_results(shell);
 }
 
 TEST(Resume, WithOtherSettingsScansOrSensorIsRefused) {
@@ -102,8 +105,7 @@ TEST(Resume, WithOtherSettingsScansOrSensorIsRefused) {
   expect_one_sentence(shell("$P run all --count 2" + resume), {"part", "INPUT"});
   // The rows behind the checkpoint may be gone.
   EXPECT_TRUE(table.starts_with(read_text(shell.folder() / "part/scans.csv")));
-  shell.must(kRun + " --resume");
-  expect_same_results(shell.folder() / "part", shell.folder() / "whole");
+  resume_to_the_same_results(shell);
 }
 
 TEST(Resume, FromADamagedCheckpointIsRefused) {
@@ -130,8 +132,7 @@ TEST(Resume, FromADamagedCheckpointIsRefused) {
 TEST(Resume, OfARunThatIsDoneIsRefusedAndOfNoneBeginsOne) {
   const Shell shell;
   prepare(shell);
-  shell.must(kRun + " --resume");
-  expect_same_results(shell.folder() / "part", shell.folder() / "whole");
+  resume_to_the_same_results(shell);
   expect_one_sentence(shell(kRun + " --resume"), {"part", "no checkpoint"});
   EXPECT_EQ(shell("$P run all --resume").exit_code, 2);
 }

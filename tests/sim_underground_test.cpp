@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "path_length.hpp"
 #include "sim/lidar.hpp"
 #include "sim/ray_caster.hpp"
 #include "sim/world.hpp"
@@ -14,15 +15,6 @@ namespace lego_loam_sc {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr std::int64_t second = 1'000'000'000;
-
-double path_length(const Motion& motion) {
-  double length = 0.0;
-  for (std::int64_t t = 0; t < motion.duration_ns; t += second / 10)
-    length += (motion.pose(t + second / 10).translation() - motion.pose(t).translation()).norm();
-  return length;
-}
 
 double return_error(const Motion& motion) {
   const Pose change = motion.pose(0).inverse() * motion.pose(motion.duration_ns);

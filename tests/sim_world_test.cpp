@@ -6,6 +6,7 @@
 #include <string>
 
 #include "io/error.hpp"
+#include "path_length.hpp"
 #include "sim/ray_caster.hpp"
 #include "sim/world.hpp"
 
@@ -13,15 +14,6 @@ namespace lego_loam_sc {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr std::int64_t second = 1'000'000'000;
-
-double path_length(const Motion& drive) {
-  double length = 0.0;
-  for (std::int64_t t = 0; t < drive.duration_ns; t += second / 10)
-    length += (drive.pose(t + second / 10).translation() - drive.pose(t).translation()).norm();
-  return length;
-}
 
 class SimWorld : public testing::TestWithParam<std::string_view> {};
 
