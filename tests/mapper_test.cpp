@@ -55,6 +55,26 @@ TEST(Mapper, FindsThePoseFromAGuessThatIsOffByThirtyCentimetresAndThreeDegrees) 
   }
 }
 
+// The scans that made the map had edges enough, this one has not: nothing in the map is like its
+// scattered points, of which there are many.
+TEST(Mapper, ScatteredPointsThatTheMapDoesNotHaveDoNoHarm) {
+  Mapper mapper = mapped(hall(), kMadeHeight);
+  const Pose truth = pose_of(-1.2, 4.3, kMadeHeight, 12.0);
+  Features features = features_at(hall(), truth, 50, kMadeHeight);
+  for (int k = 0; k < 20000; ++k) {
+    FeaturePoint p;
+    p.position =
+        Eigen::Vector3f(static_cast<float>(k % 100) - 50.0f,
+                        static_cast<float>(k / 100 % 100) - 50.0f, static_cast<float>(k / 10000));
+    features.scattered.push_back(p);
+  }
+  const Pose guess = off_by(truth, 0.1, 0.0, 0.0, 1.0);
+  const MapMatch match = mapper.refine(features, {guess, guess, Pose::Identity(), 0.1});
+  ASSERT_TRUE(match.matched);
+  EXPECT_LT(match.matches, 0.3 * match.points);
+  EXPECT_LT((truth.inverse() * match.T_map_lidar).translation().norm(), 0.02);
+}
+
 TEST(Mapper, TheCovarianceIsPositiveDefiniteAndSpeaksOfCentimetresAtMost) {
   Mapper mapper = mapped(hall(), kMadeHeight);
   const Pose truth = pose_of(-1.2, 4.3, kMadeHeight, 12.0);

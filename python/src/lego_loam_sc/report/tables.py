@@ -36,7 +36,7 @@ def _summary_rows(results: Results, duration: float) -> list[tuple[str, str]]:
     height = summary["sensor_height_m"]
     rows = [
         ("health", _health({**summary["health"], "delay": timing["delay"]})),
-        ("input", str(summary["input"])),
+        ("input", "standard input" if summary["input"] == "-" else str(summary["input"])),
         ("method", f"{summary['method']}, lego-loam-sc {summary['version']}"),
         ("sensor", summary["sensor"] + (f", {height:.2f} m above the ground" if height else "")),
         (
@@ -49,13 +49,18 @@ def _summary_rows(results: Results, duration: float) -> list[tuple[str, str]]:
         (
             "machine",
             f"{timing['processor'] or 'processor of unknown name'}, "
-            f"{timing['processors']} processors, at most {timing['threads']} threads used",
+            f"{_number(timing['processors'], 'processor')}, "
+            f"at most {_number(timing['threads'], 'thread')} used",
         ),
     ]
     if summary["interrupted"]:
         rows.append(("state", "interrupted; the results are of the scans before that"))
     rows += [("fault", fault) for fault in summary["faults"]]
     return rows
+
+
+def _number(count: int, what: str) -> str:
+    return f"{count} {what}" + ("" if count == 1 else "s")
 
 
 def _statuses(status: np.ndarray) -> str:
