@@ -16,9 +16,9 @@ constexpr double kKernelSpreads = 2.0;
 constexpr double kMinScale = 2.0;
 constexpr double kMaxScale = 50.0;
 
-// Correspondences are searched anew until a solve moves the pose by less: 0.5 mm or 0.5 mrad. The
+// Correspondences are searched anew until a solve moves the pose by less: 2 mm or 2 mrad. The
 // result is a guess for the mapper, which is finer.
-constexpr double kStill = 5e-4;
+constexpr double kStill = 2e-3;
 
 // Robust sigma of the distances, m, above which two scans do not show the same place.
 constexpr double kMaxSpread = 0.3;

@@ -41,13 +41,17 @@ ScanReport Slam::process(const Scan& scan) {
 }
 
 // A drive may begin at speed, but only the second scan tells the motion that the first sweep is to
-// be de-skewed with. So both are processed anew, knowing it, until it is right.
+// be de-skewed with. So both are processed anew, knowing it, until it is right. What is motion
+// compensated needs no such knowledge.
 ScanReport Slam::begin_again(const Scan& first, const Scan& second, ScanReport report) {
+  if (state_->sensor.motion_compensated) return report;
+  Vector6 known = Vector6::Zero();
   for (int k = 0; k < kBeginnings; ++k) {
     const Vector6 motion = state_->twist * state_->sensor.period;
     if (report.status > Status::odometry_only ||
-        motion.head<3>().norm() < state_->sensor.range_noise)
+        (motion - known).head<3>().norm() < state_->sensor.range_noise)
       break;
+    known = motion;
     auto again = std::make_unique<State>(state_->given_sensor, state_->settings,
                                          state_->arena.max_concurrency(), state_->detector,
                                          state_->point_store);
