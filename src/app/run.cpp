@@ -101,7 +101,7 @@ void run(const Options& options, int& exit_code) {
   facts.threads = options.threads;
   if (options.truth) facts.truth = {options.truth->string(), read_poses(*options.truth)};
 
-  RunInput input(options, options.count, options.threads > 1, options.quiet);
+  RunInput input(options, options.count, options.quiet);
   std::deque<Scan> scans = input.leading();
   if (scans.empty() && !input.finish_reader()) {
     exit_code = 1;
@@ -117,6 +117,7 @@ void run(const Options& options, int& exit_code) {
     spdlog::info("sensor {}, method {}", sensor.name, common.method);
     for (const std::string& note : input.source().notes()) spdlog::info("{}", note);
   }
+  if (options.threads > 1) input.read_ahead();
 
   const std::filesystem::path folder = folder_of(options);
   Checkpoint checkpoint(folder);

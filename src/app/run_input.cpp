@@ -11,12 +11,10 @@
 
 namespace lego_loam_sc {
 
-RunInput::RunInput(const InputOptions& options, std::optional<std::size_t> count, bool read_ahead,
-                   bool quiet)
+RunInput::RunInput(const InputOptions& options, std::optional<std::size_t> count, bool quiet)
     : options_(options), count_(count), input_(options, quiet) {
   for (std::size_t k = 0; k < options.first; ++k)
     if (!read_next(input_.source())) break;
-  if (read_ahead) prefetcher_.emplace(input_.source());
 }
 
 std::optional<ScanOrFault> RunInput::take() {

@@ -19,10 +19,11 @@ namespace lego_loam_sc {
 /// with the input is said as it comes and remembered, but ends nothing.
 class RunInput {
  public:
-  /// `count`: as --count; `read_ahead`: on a thread of its own. Throws InputError when the input
-  /// cannot be opened.
-  RunInput(const InputOptions& options, std::optional<std::size_t> count, bool read_ahead,
-           bool quiet);
+  /// `count`: as --count. Throws InputError when the input cannot be opened.
+  RunInput(const InputOptions& options, std::optional<std::size_t> count, bool quiet);
+
+  /// Reads on a thread of its own from now on, which also changes the notes of the source.
+  void read_ahead() { prefetcher_.emplace(input_.source()); }
 
   /// The next good scan; nothing after the last and once the run is interrupted.
   std::optional<Scan> next();
