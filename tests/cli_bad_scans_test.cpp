@@ -95,7 +95,7 @@ TEST(HostileFiles, EndInOneSentenceAndLittleMemory) {
   fs::create_symlink("/dev/zero", shell.folder() / "d/9.bin");
   fs::create_symlink("loop.bin", shell.folder() / "d/loop.bin");
   // An address space of 1.5 GB: what a header promises does not fit. A sanitizer alone needs more.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef LEGO_LOAM_SC_SANITIZED
   const std::string limit;
 #else
   const std::string limit = "ulimit -v 1500000; ";

@@ -5,14 +5,18 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <atomic>
+
 namespace lego_loam_sc {
 namespace {
 
-volatile sig_atomic_t asked_to_end = 0;
+// The signal may come to one thread and be looked for by another.
+std::atomic<bool> asked_to_end = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
 int nothing_to_read = -1;  // a file that is at its end
 
 void ask_to_end(int number) {
-  asked_to_end = 1;
+  asked_to_end = true;
   dup2(nothing_to_read, STDIN_FILENO);  // for a read that begins between this and the next look
   signal(number, SIG_DFL);
 }
@@ -35,7 +39,7 @@ void catch_interrupts() {
 }
 
 bool interrupted() {
-  return asked_to_end != 0;
+  return asked_to_end;
 }
 
 void end_read(std::thread& thread) {
