@@ -35,13 +35,7 @@ std::string known_names() {
   return names;
 }
 
-}  // namespace
-
-std::span<const WorldKind> world_kinds() {
-  return kKinds;
-}
-
-const WorldKind& world_kind(std::string_view name) {
+const WorldKind& kind_of(std::string_view name) {
   const auto kind = std::ranges::find(kKinds, name, &WorldKind::name);
   if (kind == std::end(kKinds))
     throw InputError("there is no world '" + std::string(name) +
@@ -49,8 +43,14 @@ const WorldKind& world_kind(std::string_view name) {
   return *kind;
 }
 
+}  // namespace
+
+std::span<const WorldKind> world_kinds() {
+  return kKinds;
+}
+
 World make_world(std::string_view name, std::uint64_t seed) {
-  const WorldKind& kind = world_kind(name);
+  const WorldKind& kind = kind_of(name);
   if (!kind.make)
     throw InputError("the world '" + std::string(name) +
                      "' needs a way to go, give a file of poses with --route");
@@ -58,7 +58,7 @@ World make_world(std::string_view name, std::uint64_t seed) {
 }
 
 World make_world(std::string_view name, std::uint64_t seed, const Trajectory& route) {
-  const WorldKind& kind = world_kind(name);
+  const WorldKind& kind = kind_of(name);
   if (!kind.make_along)
     throw InputError("the world '" + std::string(name) +
                      "' has its own way, --route goes with city and kitti00");

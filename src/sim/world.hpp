@@ -38,9 +38,6 @@ struct WorldKind {
 /// All worlds.
 std::span<const WorldKind> world_kinds();
 
-/// The world of a name. Throws InputError for an unknown one.
-const WorldKind& world_kind(std::string_view name);
-
 /// Builds a world; the same seed gives the same world. Throws InputError for an unknown name and
 /// for a world that needs a route.
 World make_world(std::string_view name, std::uint64_t seed);
