@@ -230,41 +230,6 @@ TEST(PoseGraph, GivesTheSameBytesForAnyNumberOfThreads) {
   for (std::size_t i = 0; i < one.size(); ++i) ASSERT_EQ(one[i].matrix(), two[i].matrix()) << i;
 }
 
-TEST(PoseGraph, RelativeCovarianceMatchesTheSpreadOfManyChains) {
-  std::mt19937 random(9);
-  const std::vector<Pose> truth = square_path(25, 6, Pose::Identity());
-  const int a = 3;
-  const int b = 22;
-  constexpr int kRuns = 4000;
-  Matrix6 forward = Matrix6::Zero();
-  Matrix6 backward = Matrix6::Zero();
-  for (int run = 0; run < kRuns; ++run) {
-    Pose T_a_b = Pose::Identity();
-    for (int i = a + 1; i <= b; ++i)
-      T_a_b =
-          T_a_b * measure(truth, i - 1, i, kOdometryCovariance, sample(kOdometryCovariance, random))
-                      .T_from_to;
-    const Pose expected = truth[a].inverse() * truth[b];
-    const Vector6 x = log_se3(expected.inverse() * T_a_b);
-    const Vector6 y = log_se3(expected * T_a_b.inverse());
-    forward += x * x.transpose() / kRuns;
-    backward += y * y.transpose() / kRuns;
-  }
-  PoseGraph graph{GraphSettings{}};
-  graph.add_first(truth[0]);
-  for (int i = 1; i < static_cast<int>(truth.size()); ++i)
-    graph.add_key_frame(measure(truth, i - 1, i, kOdometryCovariance, Vector6::Zero()));
-  const auto expect_alike = [](const Matrix6& estimate, const Matrix6& sampled) {
-    const Vector6 scale = sampled.diagonal().cwiseSqrt().cwiseInverse();
-    EXPECT_LT(
-        (scale.asDiagonal() * (estimate - sampled) * scale.asDiagonal()).cwiseAbs().maxCoeff(),
-        0.1);
-  };
-  expect_alike(graph.relative_covariance(a, b), forward);
-  expect_alike(graph.relative_covariance(b, a), backward);
-  EXPECT_EQ(graph.relative_covariance(5, 5), Matrix6::Zero());
-}
-
 TEST(PoseGraph, RefusesEdgesThatMakeNoSense) {
   PoseGraph graph{GraphSettings{}};
   const PoseEdge step{0, 1, Pose(Eigen::Translation3d(1, 0, 0)), kOdometryCovariance};

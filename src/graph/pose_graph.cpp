@@ -232,20 +232,4 @@ double PoseGraph::chi(const PoseEdge& loop) const {
   return std::sqrt(residual.dot(loop.covariance.llt().solve(residual)));
 }
 
-Matrix6 PoseGraph::relative_covariance(int a, int b) const {
-  const int first = std::min(a, b);
-  const int last = std::max(a, b);
-  if (first < 0 || last >= static_cast<int>(size()))
-    throw std::invalid_argument("relative covariance needs two key frames of the " +
-                                std::to_string(size()));
-  std::vector<Link> links;
-  for (int i = first; i < last; ++i)
-    links.push_back({to_gtsam(poses()[i]).between(to_gtsam(poses()[i + 1])), Vector6::Zero(),
-                     swap_blocks(solver_->odometry[i].covariance)});
-  const Stretch chain = condense(links, 0, last - first);
-  if (a <= b) return swap_blocks(chain.spread);
-  const Matrix6 adjoint = chain.relative.AdjointMap();
-  return swap_blocks(adjoint * chain.spread * adjoint.transpose());
-}
-
 }  // namespace lego_loam_sc

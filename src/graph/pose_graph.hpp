@@ -84,10 +84,6 @@ class PoseGraph {
   /// The same of a loop that the graph need not hold.
   double chi(const PoseEdge& loop) const;
 
-  /// Covariance of T_a_b along the odometry chain, in the convention of PoseEdge (axes of b). An
-  /// upper bound of the uncertainty: loops can only lower it. Takes time in proportion to |b - a|.
-  Matrix6 relative_covariance(int a, int b) const;
-
   /// See core/state_archive.hpp. What the solver keeps depends on all that it was told, so a graph
   /// is read by telling it everything again.
   template <class Archive>
