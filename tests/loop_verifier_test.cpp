@@ -220,5 +220,46 @@ TEST(LoopCloser, TheEdgeLeadsFromTheMatchToTheQueryInTheMatchsFrame) {
   }
 }
 
+// Five times round the hall, seeing the same each time.
+TEST(LoopCloser, WhoDrivesTheSameRoundAgainAndAgainIsTiedOnceAndSearchedForSeldom) {
+  constexpr int kVisits = 40;
+  constexpr int kRounds = 5;
+  constexpr double kStep = 1.0;  // m
+  std::vector<Visit> visits;
+  for (int k = 0; k < kVisits; ++k) {
+    const double turn = 360.0 * k / kVisits;
+    visits.push_back(visit(hall(),
+                           pose_of(7.0 * std::cos(radians(turn)), 5.0 * std::sin(radians(turn)),
+                                   kMadeHeight, turn + 90.0),
+                           static_cast<std::uint64_t>(300 + k)));
+  }
+  KeyFrames key_frames;
+  Pieces pieces;
+  PoseGraph graph{GraphSettings{}};
+  LoopCloser closer({}, {}, kNoise);
+  std::vector<int> added(kRounds), verified(kRounds);
+  for (int k = 0; k < kVisits * kRounds; ++k) {
+    Visit v = visits[k % kVisits];
+    v.key_frame.travelled = kStep * k;
+    if (k == 0) {
+      graph.add_first(v.T_world_lidar);
+    } else {
+      const Pose step = visits[(k - 1) % kVisits].T_world_lidar.inverse() * v.T_world_lidar;
+      graph.add_key_frame({k - 1, k, step, Matrix6::Identity() * 1e-4});
+    }
+    key_frames.add(v.key_frame);
+    for (const LoopReport& report : closer.close(key_frames, v.context, pieces, graph)) {
+      ++verified[k / kVisits];
+      added[k / kVisits] += report.added;
+    }
+  }
+  for (int round = 1; round < kRounds; ++round) {
+    EXPECT_LE(added[round], 1) << round;
+    EXPECT_GE(verified[round], 2) << round;
+  }
+  // At every third key frame if each loop were as good as the first.
+  EXPECT_LE(verified[kRounds - 1], 7);
+}
+
 }  // namespace
 }  // namespace lego_loam_sc

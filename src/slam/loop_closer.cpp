@@ -23,7 +23,7 @@ constexpr double kContradiction = 7.0;
 constexpr double kNothingNew = 0.5;
 constexpr double kSameVisit = 20.0;
 // With each of them the pause before the next doubles, up to this, m.
-constexpr double kLongestPause = 0.5 * kSameVisit;
+constexpr double kLongestPause = 0.3 * kSameVisit;
 // Where so many loops end within this distance, m, another visit is no news unless it disagrees.
 // Chi has six degrees of freedom: 2.5 is a usual value of it.
 constexpr int kWellTied = 10;
@@ -173,7 +173,7 @@ std::vector<LoopReport> LoopCloser::close(const KeyFrames& key_frames, ScanConte
                                           Pieces& pieces, PoseGraph& graph) {
   std::vector<LoopReport> reports = find(key_frames, context, pieces, graph);
   // A place that a loop has told is described already, by the visit before.
-  const bool known = pause_ > settings_.spacing &&
+  const bool known = pieces.maps() == 1 && pause_ > settings_.spacing &&
                      key_frames.travelled(key_frames.size() - 1) - last_loop_travelled_ < pause_;
   if (!known) contexts_.add(static_cast<int>(key_frames.size()) - 1, std::move(context));
   return reports;
