@@ -42,7 +42,7 @@ struct Head {
 
 }  // namespace
 
-Checkpoint::Checkpoint(fs::path folder)
+Checkpoint::Checkpoint(const fs::path& folder)
     : state_path_(folder / "checkpoint"),
       growth_path_(folder / "checkpoint.growth"),
       growth_hash_(kHashOfNothing) {

@@ -17,7 +17,7 @@ namespace lego_loam_sc {
 class Checkpoint {
  public:
   /// Marks the folder unless it is marked.
-  explicit Checkpoint(std::filesystem::path folder);
+  explicit Checkpoint(const std::filesystem::path& folder);
 
   static bool marks(const std::filesystem::path& folder);
 

@@ -56,13 +56,14 @@ HealthLog::Line HealthLog::add(const ScanReport& report) {
 nlohmann::ordered_json HealthLog::to_json(Vital vital) const {
   const auto v = static_cast<std::size_t>(vital);
   const VitalLimits& limits = vital_limits()[v];
+  const Sum& sum = sums_[v];
   nlohmann::ordered_json json = {{"unit", limits.unit},         {"warning_level", limits.warning},
-                                 {"error_level", limits.error}, {"warnings", sums_[v].warnings},
-                                 {"errors", sums_[v].errors},   {"worst", nullptr},
+                                 {"error_level", limits.error}, {"warnings", sum.warnings},
+                                 {"errors", sum.errors},        {"worst", nullptr},
                                  {"worst_scan", nullptr}};
-  if (sums_[v].worst) {
-    json["worst"] = *sums_[v].worst;
-    json["worst_scan"] = sums_[v].worst_scan;
+  if (sum.worst) {
+    json["worst"] = *sum.worst;
+    json["worst_scan"] = sum.worst_scan;
   }
   return json;
 }
@@ -80,7 +81,7 @@ std::string HealthLog::text() const {
   for (std::size_t v = 0; v < kVitals; ++v) {
     const VitalLimits& limits = vital_limits()[v];
     const Sum& sum = sums_[v];
-    if (sum.warnings + sum.errors == 0) continue;
+    if (!sum.worst || sum.warnings + sum.errors == 0) continue;
     const std::string unit = limits.unit.empty() ? "" : " " + std::string(limits.unit);
     text += std::string(limits.name) + ": " + std::to_string(sum.warnings) + " warnings, " +
             std::to_string(sum.errors) + " errors (levels " + short_text(limits.warning) + " and " +

@@ -5,6 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "slam/health.hpp"
 
@@ -14,7 +15,7 @@ namespace lego_loam_sc {
 /// depends on the machine and differs from run to run, and what does not is compared byte by byte.
 class HealthLog {
  public:
-  explicit HealthLog(const SensorModel& sensor) : sensor_(sensor) {}
+  explicit HealthLog(SensorModel sensor) : sensor_(std::move(sensor)) {}
 
   /// What scans.csv says of the health of a scan.
   struct Line {

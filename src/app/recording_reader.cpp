@@ -10,6 +10,7 @@
 #include <cstring>
 #include <filesystem>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "app/companion.hpp"
@@ -77,7 +78,7 @@ RecordingReader::RecordingReader(const std::string& input, const std::optional<s
 
 int RecordingReader::wait() {
   make_standard_input(open("/dev/null", O_RDONLY));  // it must not wait for us to read on
-  return wait_for(process_);
+  return wait_for(std::exchange(process_, -1));
 }
 
 }  // namespace lego_loam_sc

@@ -112,7 +112,7 @@ std::string ResultWriter::finish(const Slam& slam, const DatasetFacts& dataset,
   // A file name need not be UTF-8.
   write_file(folder_ / "summary.json",
              summary.json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
-  if (fault) throw *fault;
+  if (fault) throw InputError(*fault);
   return summary.text;
 }
 
