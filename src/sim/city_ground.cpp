@@ -110,7 +110,7 @@ class GroundBuilder {
     if (points.size() < 3) return;
     const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
     for (const Point& point : points)
-      mesh_.vertices.push_back(on_ground(point.place, raised, bumps).cast<float>());
+      mesh_.vertices.emplace_back(on_ground(point.place, raised, bumps).cast<float>());
     for (std::uint32_t k = 2; k < points.size(); ++k) {
       mesh_.triangles.push_back({first, first + k - 1, first + k});
       mesh_.reflectivity.push_back(static_cast<float>(reflectivity));

@@ -72,9 +72,9 @@ Polyline lane() {
   for (std::size_t k = 1; k < kWay.size(); ++k) {
     const Vector2d from = place_of(kWay[k - 1]), to = place_of(kWay[k]);
     const Vector2d half_way = middle_of(kWay[k - 1], kWay[k]);
-    waypoints.push_back(from + kCornerLeg * (half_way - from).normalized());
+    waypoints.emplace_back(from + kCornerLeg * (half_way - from).normalized());
     waypoints.push_back(half_way);
-    waypoints.push_back(to + kCornerLeg * (half_way - to).normalized());
+    waypoints.emplace_back(to + kCornerLeg * (half_way - to).normalized());
     waypoints.push_back(to);
   }
   const Route middle(waypoints, kRadius);

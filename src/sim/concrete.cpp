@@ -32,7 +32,8 @@ void add_wall(Mesh& mesh, const Vector2d& start, const Vector2d& end, double hei
   while (x < total) {
     const bool is_door = random.chance(0.2);
     const double next = std::min(total, x + (is_door ? 1.2 : random.uniform(2.5, 6.0)));
-    const double next_setback = is_door ? kSetback : random.chance(0.5) ? 0.0 : 0.15;
+    double next_setback = kSetback;
+    if (!is_door) next_setback = random.chance(0.5) ? 0.0 : 0.15;
     panel(x, -setback, x, -next_setback, kConcrete);
     panel(x, -next_setback, next, -next_setback, is_door ? kPaint : kConcrete);
     if (!is_door && random.chance(0.4))

@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/atomic_file.hpp"
@@ -46,7 +47,7 @@ Eigen::Matrix3d R_camera_lidar() {
   return axes;
 }
 
-KittiFolder::KittiFolder(const fs::path& folder, const DatasetFacts& facts) : folder_(folder) {
+KittiFolder::KittiFolder(fs::path folder, const DatasetFacts& facts) : folder_(std::move(folder)) {
   std::error_code error;
   if (fs::exists(folder_, error) && !fs::is_empty(folder_, error))
     throw InputError(folder_.string() + " is not an empty folder, give a new one");

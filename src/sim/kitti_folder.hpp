@@ -24,7 +24,7 @@ Eigen::Matrix3d R_camera_lidar();
 class KittiFolder {
  public:
   /// Makes the folder. Throws InputError when it is there and not empty or cannot be made.
-  KittiFolder(const std::filesystem::path& folder, const DatasetFacts& facts);
+  KittiFolder(std::filesystem::path folder, const DatasetFacts& facts);
 
   /// Throws InputError when the disk does not take the scan.
   void add(const Scan& scan, const Pose& T_world_lidar);

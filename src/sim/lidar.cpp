@@ -117,7 +117,7 @@ Scan sweep(const RayCaster& world, const SensorModel& sensor, const LidarPose& l
     const Pose T_world_lidar = lidar_pose(settings.distort ? time_ns : stamp_ns);
     std::vector<Vector3d> directions;
     for (const Eigen::Vector2d& elevation : elevations)
-      directions.push_back(T_world_lidar.linear() * direction_of(firing, elevation));
+      directions.emplace_back(T_world_lidar.linear() * direction_of(firing, elevation));
     std::vector<std::optional<Hit>> hits(rows);
     world.cast(T_world_lidar.translation(), directions, reach, hits);
     traffic.cast(neighbours, time_ns, T_world_lidar.translation(), directions, reach, hits);
@@ -136,7 +136,7 @@ Scan sweep(const RayCaster& world, const SensorModel& sensor, const LidarPose& l
       const Echo& echo = echoes[row * columns + column];
       if (echo.range == 0.0f) continue;
       const Vector3d direction = direction_of(firings[column], reported[row]);
-      scan.points.push_back((echo.range * direction).cast<float>());
+      scan.points.emplace_back((echo.range * direction).cast<float>());
       scan.intensity.push_back(echo.intensity);
       scan.ring.push_back(static_cast<std::uint16_t>(row));
       if (settings.distort) scan.offset_ns.push_back(firings[column].offset_ns);

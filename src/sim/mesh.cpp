@@ -11,7 +11,7 @@ namespace {
 constexpr int kCylinderSides = 12;
 
 std::uint32_t add_vertex(Mesh& mesh, const Eigen::Vector3d& vertex) {
-  mesh.vertices.push_back(vertex.cast<float>());
+  mesh.vertices.emplace_back(vertex.cast<float>());
   return static_cast<std::uint32_t>(mesh.vertices.size() - 1);
 }
 
@@ -93,7 +93,7 @@ void add_rod(Mesh& mesh, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
 void add_mesh(Mesh& mesh, const Mesh& part, const Eigen::Vector3d& shift) {
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
   for (const Eigen::Vector3f& vertex : part.vertices)
-    mesh.vertices.push_back(vertex + shift.cast<float>());
+    mesh.vertices.emplace_back(vertex + shift.cast<float>());
   for (const auto& [a, b, c] : part.triangles)
     mesh.triangles.push_back({first + a, first + b, first + c});
   mesh.reflectivity.insert(mesh.reflectivity.end(), part.reflectivity.begin(),

@@ -76,7 +76,7 @@ std::vector<Sample> resample(const Trajectory& route) {
     // Half a millisecond of slack: stamps are rounded.
     for (double t = static_cast<double>(samples.size()) * kInterval; t < time + 5e-4;
          t = static_cast<double>(samples.size()) * kInterval)
-      samples.push_back(before + (t - time_before) / (time - time_before) * (here - before));
+      samples.emplace_back(before + (t - time_before) / (time - time_before) * (here - before));
     before = here;
     time_before = time;
   }
@@ -154,7 +154,7 @@ Way way_of(const Track& track) {
     const double step = (here - before).norm();
     while (travelled + step >= kPathSpacing * static_cast<double>(points.size())) {
       const double missing = kPathSpacing * static_cast<double>(points.size()) - travelled;
-      points.push_back(before + missing / step * (here - before));
+      points.emplace_back(before + missing / step * (here - before));
     }
     travelled += step;
     before = here;

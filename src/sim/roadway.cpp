@@ -126,7 +126,7 @@ bool is_open(const std::array<const Vertex*, 3>& triangle, bool on_floor) {
 void add_tube(Mesh& mesh, const std::vector<Ring>& rings) {
   const std::size_t first = mesh.vertices.size(), ring_size = rings.front().size();
   for (const Ring& ring : rings)
-    for (const Vertex& vertex : ring) mesh.vertices.push_back(vertex.place.cast<float>());
+    for (const Vertex& vertex : ring) mesh.vertices.emplace_back(vertex.place.cast<float>());
   const auto add_triangle = [&](const std::array<std::size_t, 3>& corners) {
     std::array<const Vertex*, 3> triangle;
     for (std::size_t i = 0; i < 3; ++i)

@@ -83,7 +83,7 @@ double Terrain::height(const Vector2d& place) const {
   const Weights wx = value_weights(patch.u), wy = value_weights(patch.v);
   double sum = 0.0;
   for (int i = 0; i < 4; ++i) {
-    const double* row = &controls_[static_cast<std::size_t>((patch.i + i) * ny_ + patch.j)];
+    const double* row = &controls_[static_cast<std::size_t>(patch.i + i) * ny_ + patch.j];
     for (int j = 0; j < 4; ++j) sum += wx[i] * wy[j] * row[j];
   }
   return sum;
@@ -95,7 +95,7 @@ Vector2d Terrain::slope(const Vector2d& place) const {
   const Weights dx = slope_weights(patch.u), dy = slope_weights(patch.v);
   Vector2d sum = Vector2d::Zero();
   for (int i = 0; i < 4; ++i) {
-    const double* row = &controls_[static_cast<std::size_t>((patch.i + i) * ny_ + patch.j)];
+    const double* row = &controls_[static_cast<std::size_t>(patch.i + i) * ny_ + patch.j];
     for (int j = 0; j < 4; ++j) sum += row[j] * Vector2d(dx[i] * wy[j], wx[i] * dy[j]);
   }
   return sum / kSpacing;

@@ -57,7 +57,7 @@ void Traffic::cast(std::span<const Neighbour> neighbours, std::int64_t time_ns,
     const Pose T_mover_world = mover->pose(time_ns).inverse();
     std::vector<Vector3d> turned;
     for (const Vector3d& direction : directions)
-      turned.push_back(T_mover_world.linear() * direction);
+      turned.emplace_back(T_mover_world.linear() * direction);
     std::vector<std::optional<Hit>> found(directions.size());
     models_[mover->model].shape.cast(T_mover_world * origin, turned, max_range, found);
     for (std::size_t i = 0; i < hits.size(); ++i)
