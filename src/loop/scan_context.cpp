@@ -72,7 +72,7 @@ std::vector<double> distances(const ScanContext& query, const ScanContext& candi
   const auto count = [](const std::vector<float>& occupied) {
     return std::count(occupied.begin(), occupied.end(), 1.0f);
   };
-  const double occupied = static_cast<double>(count(query.occupied) + count(candidate.occupied));
+  const auto occupied = static_cast<double>(count(query.occupied) + count(candidate.occupied));
   std::vector<double> result(query.sectors, 1.0);
   for (int n = 0; n < query.sectors; ++n) {
     if (2.0f * common[n] < static_cast<float>(query.sectors)) continue;

@@ -18,7 +18,12 @@ constexpr std::size_t kVitals = 7;
 /// What a value of a vital is judged as.
 enum class HealthLevel { ok, warning, error };
 constexpr std::string_view to_string(HealthLevel level) {
-  return level == HealthLevel::ok ? "ok" : level == HealthLevel::warning ? "warning" : "error";
+  switch (level) {
+    case HealthLevel::ok: return "ok";
+    case HealthLevel::warning: return "warning";
+    case HealthLevel::error: return "error";
+  }
+  return "unknown";
 }
 
 /// Where a vital begins to be bad.
