@@ -59,7 +59,7 @@ class GroundRows {
 void mark_pixel(const RangeImage& image, std::int32_t nearest, float tolerance,
                 std::vector<Label>& label) {
   label[nearest] = Label::ground;
-  const std::int32_t count = static_cast<std::int32_t>(image.size());
+  const auto count = static_cast<std::int32_t>(image.size());
   const auto same = [&](std::int32_t k) {
     return image.column[k] == image.column[nearest] &&
            std::abs(image.range[k] - image.range[nearest]) < tolerance &&
@@ -82,8 +82,8 @@ struct Column {
 
 void mark_ground(const RangeImage& image, const SensorModel& sensor, double sensor_height,
                  const SegmentationSettings& settings, std::vector<Label>& label) {
-  const float max_tangent = static_cast<float>(std::tan(radians(settings.ground_slope_deg)));
-  const float tolerance = static_cast<float>(settings.ground_height_tolerance);
+  const auto max_tangent = static_cast<float>(std::tan(radians(settings.ground_slope_deg)));
+  const auto tolerance = static_cast<float>(settings.ground_height_tolerance);
   const GroundRows rows(sensor, settings);
 
   // All columns climb together, because the image lies in memory row by row.
@@ -127,7 +127,7 @@ std::optional<double> estimate_sensor_height(const RangeImage& image, const Sens
   constexpr float kBin = 0.1f;     // m
   constexpr int kBins = 100;       // down to 10 m below the sensor
   constexpr int kEnough = 100;     // points in the fullest bin
-  const float max_tangent = static_cast<float>(std::tan(radians(settings.ground_slope_deg)));
+  const auto max_tangent = static_cast<float>(std::tan(radians(settings.ground_slope_deg)));
   const GroundRows rows(sensor, settings);
 
   std::array<int, kBins> count{};

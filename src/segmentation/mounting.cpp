@@ -39,7 +39,7 @@ struct Plane {
 std::vector<Vector3d> points_near(const RangeImage& image) {
   std::vector<Vector3d> near;
   for (std::size_t i = 0; i < image.size(); ++i)
-    if (image.range[i] < kReach) near.push_back(image.points[i].cast<double>());
+    if (image.range[i] < kReach) near.emplace_back(image.points[i].cast<double>());
   std::vector<Vector3d> some;
   const std::size_t stride = near.size() / kMostPoints + 1;
   for (std::size_t i = 0; i < near.size(); i += stride) some.push_back(near[i]);

@@ -24,8 +24,8 @@ std::vector<float> ranges(const Scan& scan) {
 // NaN and infinity fail the comparisons.
 std::vector<std::uint8_t> usable_points(const std::vector<float>& range,
                                         const SensorModel& sensor) {
-  const float nearest = static_cast<float>(sensor.min_range);
-  const float farthest = static_cast<float>(sensor.max_range);
+  const auto nearest = static_cast<float>(sensor.min_range);
+  const auto farthest = static_cast<float>(sensor.max_range);
   std::vector<std::uint8_t> usable(range.size());
   for (std::size_t i = 0; i < range.size(); ++i)
     usable[i] = (range[i] >= nearest) & (range[i] <= farthest) & (range[i] > 0.0f);
@@ -60,7 +60,7 @@ class Raise {
 
 // Seconds between the start of the sweep and the time when the sensor looked at `azimuth`.
 float time_of_azimuth(float azimuth, const SensorModel& sensor) {
-  const float start = static_cast<float>(radians(sensor.start_azimuth_deg));
+  const auto start = static_cast<float>(radians(sensor.start_azimuth_deg));
   const float turned = sensor.clockwise ? start - azimuth : azimuth - start;
   const float turns = turned / (2.0f * std::numbers::pi_v<float>);
   return (turns - std::floor(turns)) * static_cast<float>(sensor.period);
