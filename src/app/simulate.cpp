@@ -51,6 +51,7 @@ using Sink = std::function<void(const Scan&, const Pose& T_world_lidar)>;
 
 Sink open_sink(const Options& options, const DatasetFacts& facts) {
   const auto truth = options.truth.empty() ? nullptr : std::make_shared<AppendFile>(options.truth);
+  if (truth) truth->cut(0);
   const auto note = [truth](const Scan& scan, const Pose& T_world_lidar) {
     if (truth) truth->append(tum_line({scan.stamp_ns, T_world_lidar}));
   };
