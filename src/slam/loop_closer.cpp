@@ -174,7 +174,7 @@ std::vector<LoopReport> LoopCloser::close(const KeyFrames& key_frames, ScanConte
   std::vector<LoopReport> reports = find(key_frames, context, pieces, graph);
   // A place that a loop has told is described already, by the visit before.
   const bool known = pieces.maps() == 1 && pause_ > settings_.spacing &&
-                     key_frames.travelled(key_frames.size() - 1) - last_loop_travelled_ < pause_;
+                     pauses(key_frames.travelled(key_frames.size() - 1));
   if (!known) contexts_.add(static_cast<int>(key_frames.size()) - 1, std::move(context));
   return reports;
 }
@@ -183,7 +183,7 @@ std::vector<LoopReport> LoopCloser::find(const KeyFrames& key_frames, const Scan
                                          Pieces& pieces, PoseGraph& graph) {
   std::vector<LoopReport> reports;
   const double now = key_frames.travelled(key_frames.size() - 1);
-  const bool just_closed = now - last_loop_travelled_ < pause_;
+  const bool just_closed = pauses(now);
   if (just_closed && pieces.maps() == 1) return reports;
 
   for (const LoopCandidate& candidate : candidates(key_frames, context, pieces, graph)) {

@@ -45,6 +45,9 @@ class LoopCloser {
   LoopVerification verify(const LoopCandidate& candidate, const KeyFrames& key_frames,
                           const Pieces& pieces, const PoseGraph& graph) const;
 
+  // Whether the last loop is too near, m along the path, for the next to be sought.
+  bool pauses(double travelled) const { return travelled - last_loop_travelled_ < pause_; }
+
   LoopSettings settings_;
   GraphSettings graph_settings_;
   double range_noise_;
