@@ -216,6 +216,16 @@ TEST(PlyReader, RefusesHeadersThatLie) {
   }
 }
 
+// Found by the fuzzer under UndefinedBehaviorSanitizer: columns of no rows need an address too.
+TEST(PlyReader, ReadsFilesWithoutPoints) {
+  for (const char* format : {"ascii", "binary_little_endian"}) {
+    const std::string bytes = "ply\nformat " + std::string(format) +
+                              " 1.0\nelement vertex 0\nproperty float x\nproperty float y\n"
+                              "property float z\nend_header\n";
+    EXPECT_EQ(parse_ply(bytes, "a.ply").scan.size(), 0U) << format;
+  }
+}
+
 TEST(PlyReader, SurvivesDamage) {
   const auto parse = [](const std::string& bytes) { parse_ply(bytes, "a.ply"); };
   EXPECT_EQ(read_damaged(ply_ascii(), parse), 10);  // and the element behind the vertices

@@ -29,6 +29,7 @@ struct Drive {
   std::shared_ptr<CountedBlobs> blobs = std::make_shared<CountedBlobs>();
   KeyFrames key_frames{blobs};
   std::vector<Pose> poses;
+  std::vector<int> places;
   Pieces pieces;
   Mapper mapper{{}, 0.01};
   MapUpkeep upkeep{kRadius};
@@ -40,8 +41,11 @@ struct Drive {
     key_frame.planars = {pack({1.0f, 2.0f, 0.0f}, 0.0f)};
     key_frames.add(key_frame);
     poses.push_back(pose);
-    upkeep.add(pose);
+    places.push_back(static_cast<int>(places.size()));
+    upkeep.add(places.back(), pose);
   }
+
+  bool follow() { return upkeep.follow(poses, places, pieces, key_frames, mapper); }
 
   // Key frames that are put into the map by the scans to come.
   int put_in_later() {
@@ -55,7 +59,7 @@ TEST(MapUpkeep, LeavesTheMapAloneWhileKeyFramesStayWhereTheyAre) {
   Drive drive;
   for (int k = 0; k < 20; ++k) drive.go_to(2.0 * k);
   for (Pose& pose : drive.poses) pose.translation().y() += 0.02;
-  EXPECT_FALSE(drive.upkeep.follow(drive.poses, drive.pieces, drive.key_frames, drive.mapper));
+  EXPECT_FALSE(drive.follow());
   EXPECT_EQ(drive.put_in_later(), 0);
 }
 
@@ -63,7 +67,7 @@ TEST(MapUpkeep, DrawsTheMapAnewWhenKeyFramesHaveMoved) {
   Drive drive;
   for (int k = 0; k < 20; ++k) drive.go_to(2.0 * k);
   drive.poses[7].translation().y() += 0.05;
-  EXPECT_TRUE(drive.upkeep.follow(drive.poses, drive.pieces, drive.key_frames, drive.mapper));
+  EXPECT_TRUE(drive.follow());
   const int at_once = drive.blobs->loaded();
   EXPECT_GT(at_once, 0);
   EXPECT_LT(at_once, 20);
@@ -79,7 +83,7 @@ TEST(MapUpkeep, PutsInOneKeyFrameOfEachPlace) {
     for (int k = 0; k < 10; ++k) drive.go_to(3.0 * k + 0.1 * round);
   drive.go_to(200.0);
   drive.go_to(0.0);
-  EXPECT_FALSE(drive.upkeep.follow(drive.poses, drive.pieces, drive.key_frames, drive.mapper));
+  EXPECT_FALSE(drive.follow());
   EXPECT_EQ(drive.put_in_later(), 9);
 }
 
@@ -90,10 +94,10 @@ TEST(MapUpkeep, OtherMapsStayOut) {
   drive.pieces.begin(static_cast<int>(drive.poses.size()));
   drive.upkeep.clear();
   drive.go_to(0.5);
-  EXPECT_FALSE(drive.upkeep.follow(drive.poses, drive.pieces, drive.key_frames, drive.mapper));
+  EXPECT_FALSE(drive.follow());
   EXPECT_EQ(drive.put_in_later(), 0);
   drive.pieces.join(0, static_cast<int>(drive.poses.size()) - 1);
-  EXPECT_FALSE(drive.upkeep.follow(drive.poses, drive.pieces, drive.key_frames, drive.mapper));
+  EXPECT_FALSE(drive.follow());
   EXPECT_EQ(drive.put_in_later(), 9);
 }
 

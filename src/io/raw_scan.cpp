@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/raw_scan.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -103,8 +104,8 @@ std::vector<double> take_numbers(std::string_view& rest, std::size_t count, std:
   if (count > (rest.size() + 1) / 2 / width)
     throw InputError(file + ": the header promises " + std::to_string(count) +
                      " points, the data is too short for them");
-  std::vector<double> numbers(count * width);
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
+  std::vector<double> numbers(std::max<std::size_t>(count, 1) * width);
+  for (std::size_t i = 0; i < count * width; ++i) {
     const std::string_view word = take_word(rest);
     const auto value = parse_double(word);
     if (!value)

@@ -59,9 +59,9 @@ struct RawScan {
 /// range.
 RawScan assemble(std::span<const Column> columns, std::size_t count, const std::string& file);
 
-/// Takes `count` points of `width` (not 0) numbers in words off the front of `rest`. Throws
-/// InputError, which begins with `file`, when they are not there; allocates nothing before it is
-/// clear that they can be.
+/// Takes `count` points of `width` (not 0) numbers in words off the front of `rest`; one row is
+/// returned even for no points, so that each column has an address. Throws InputError, which begins
+/// with `file`, when they are not there; allocates nothing before it is clear that they can be.
 std::vector<double> take_numbers(std::string_view& rest, std::size_t count, std::size_t width,
                                  const std::string& file);
 

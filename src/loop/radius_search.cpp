@@ -7,11 +7,12 @@
 
 namespace lego_loam_sc {
 
-std::vector<LoopCandidate> search_radius(std::span<const Pose> T_map_key, int query, int eligible,
+std::vector<LoopCandidate> search_radius(std::span<const Pose> T_map_key, int query,
+                                         std::span<const int> eligible,
                                          const RadiusSearchSettings& settings) {
   std::vector<LoopCandidate> candidates;
   const Eigen::Vector3d position = T_map_key[query].translation();
-  for (int match = 0; match < eligible; ++match) {
+  for (const int match : eligible) {
     const double distance = (T_map_key[match].translation() - position).norm();
     if (distance <= settings.radius)
       candidates.push_back({query, match, LoopCandidate::Detector::radius, distance, 0.0});

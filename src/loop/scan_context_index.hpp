@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "core/settings.hpp"
@@ -18,6 +19,9 @@ class ScanContextIndex {
 
   /// Describes a key frame; in ascending order, not necessarily all.
   void add(int key_frame, ScanContext context);
+
+  /// The key frames that were described.
+  std::span<const int> key_frames() const { return key_frames_; }
 
   /// Loop candidates of key frame `query` among those before `eligible`: those of the
   /// `settings.candidates` nearest ring keys whose D is below `settings.threshold`, best first, so

@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -91,14 +92,15 @@ std::vector<LoopCandidate> LoopCloser::candidates(const KeyFrames& key_frames,
                                                   const ScanContext& context, const Pieces& pieces,
                                                   const PoseGraph& graph) const {
   const int query = static_cast<int>(key_frames.size()) - 1;
-  int eligible = 0;  // key frames that are another visit, not the same one going on
-  while (eligible < query &&
-         (!pieces.same(eligible, query) ||
-          (key_frames.travelled(query) - key_frames.travelled(eligible) >= settings_.min_travel &&
-           1e-9 * static_cast<double>(key_frames.reference_ns(query) -
-                                      key_frames.reference_ns(eligible)) >=
-               settings_.min_seconds)))
-    ++eligible;
+  // Key frames of another visit, not of the same one going on.
+  const auto numbers = std::views::iota(0, query);
+  const int eligible = *std::ranges::partition_point(numbers, [&](int k) {
+    const auto age_ns =
+        static_cast<double>(key_frames.reference_ns(query) - key_frames.reference_ns(k));
+    return !pieces.same(k, query) ||
+           (key_frames.travelled(query) - key_frames.travelled(k) >= settings_.min_travel &&
+            1e-9 * age_ns >= settings_.min_seconds);
+  });
 
   std::vector<LoopCandidate> found;
   if (settings_.scan_context.enabled) {
@@ -110,8 +112,10 @@ std::vector<LoopCandidate> LoopCloser::candidates(const KeyFrames& key_frames,
     }
   }
   if (settings_.radius_search.enabled) {
+    const std::span<const int> before = places().first(
+        static_cast<std::size_t>(std::ranges::lower_bound(places(), eligible) - places().begin()));
     for (const LoopCandidate& candidate :
-         search_radius(graph.poses(), query, eligible, settings_.radius_search))
+         search_radius(graph.poses(), query, before, settings_.radius_search))
       if (pieces.joined(candidate.match, query)) found.push_back(candidate);
   }
   if (detector_ && eligible > 0) {

@@ -31,6 +31,10 @@ class LoopCloser {
   std::vector<LoopReport> close(const KeyFrames& key_frames, ScanContext context, Pieces& pieces,
                                 PoseGraph& graph);
 
+  /// The key frames that stand for their places, in ascending order. Others were taken where a loop
+  /// had just told that the place is known.
+  std::span<const int> places() const { return contexts_.key_frames(); }
+
   /// See core/state_archive.hpp.
   template <class Archive>
   void state(Archive& archive) {

@@ -2,7 +2,6 @@
 #include "slam/map_upkeep.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -25,29 +24,22 @@ double distance(const Pose& a, const Pose& b) {
   return (a.translation() - b.translation()).norm();
 }
 
-using CellIndex = std::array<int, 3>;
-
-CellIndex cell_of(const Pose& pose) {
-  CellIndex cell;
-  for (int i = 0; i < 3; ++i) cell[i] = static_cast<int>(std::floor(pose.translation()[i] / kCell));
-  return cell;
-}
-
 }  // namespace
 
-void MapUpkeep::add(const Pose& T_map_key) {
-  for (std::optional<Pose>& other : in_map_)
-    if (other && distance(*other, T_map_key) > radius_) other.reset();
-  in_map_.push_back(T_map_key);
+void MapUpkeep::add(int key_frame, const Pose& T_map_key) {
+  std::erase_if(in_map_, [&](const auto& entry) {
+    return distance(entry.second.T_map_key, T_map_key) > radius_;
+  });
+  in_map_.try_emplace(cell_of(T_map_key), key_frame, T_map_key);
 }
 
 void MapUpkeep::clear() {
-  std::fill(in_map_.begin(), in_map_.end(), std::nullopt);
+  in_map_.clear();
   missing_.clear();
 }
 
-bool MapUpkeep::follow(std::span<const Pose> T_map_key, const Pieces& pieces,
-                       const KeyFrames& key_frames, Mapper& mapper) {
+bool MapUpkeep::follow(std::span<const Pose> T_map_key, std::span<const int> places,
+                       const Pieces& pieces, const KeyFrames& key_frames, Mapper& mapper) {
   const bool moved = has_moved(T_map_key);
   if (moved) {
     clear();
@@ -55,17 +47,20 @@ bool MapUpkeep::follow(std::span<const Pose> T_map_key, const Pieces& pieces,
   }
   missing_.clear();
   const int last = static_cast<int>(T_map_key.size()) - 1;
-  std::vector<std::pair<double, int>> near;
-  for (int k = 0; k <= last; ++k) {
+  std::vector<std::pair<double, int>> near = {{0.0, last}};
+  for (const int k : places) {
     const double away = distance(T_map_key[k], T_map_key[last]);
-    if (away <= radius_ && !in_map_[k] && pieces.joined(k, last)) near.emplace_back(away, k);
+    if (away <= radius_ && pieces.joined(k, last)) near.emplace_back(away, k);
   }
   std::sort(near.begin(), near.end());
-  std::set<CellIndex> taken;
-  for (const std::optional<Pose>& pose : in_map_)
-    if (pose) taken.insert(cell_of(*pose));
+  std::set<Cell> taken;
+  std::set<int> inserted;
+  for (const auto& [cell, entry] : in_map_) {
+    taken.insert(cell);
+    inserted.insert(entry.key_frame);
+  }
   for (const auto& [away, k] : near)
-    if (taken.insert(cell_of(T_map_key[k])).second) missing_.push_back(k);
+    if (!inserted.contains(k) && taken.insert(cell_of(T_map_key[k])).second) missing_.push_back(k);
   std::reverse(missing_.begin(), missing_.end());
   if (moved) put_in(kAtOnce, T_map_key, key_frames, mapper);
   return moved;
@@ -76,13 +71,19 @@ void MapUpkeep::go_on(std::span<const Pose> T_map_key, const KeyFrames& key_fram
   put_in(kWithEachScan, T_map_key, key_frames, mapper);
 }
 
+MapUpkeep::Cell MapUpkeep::cell_of(const Pose& T_map_key) {
+  const Eigen::Vector3d position = T_map_key.translation();
+  Cell cell;
+  for (int i = 0; i < 3; ++i) cell[i] = static_cast<int>(std::floor(position[i] / kCell));
+  return cell;
+}
+
 bool MapUpkeep::has_moved(std::span<const Pose> T_map_key) const {
-  for (std::size_t k = 0; k < in_map_.size(); ++k) {
-    if (!in_map_[k]) continue;
-    const Pose change = in_map_[k]->inverse() * T_map_key[k];
-    if (change.translation().norm() + kArm * rotation_angle(change) > kMoved) return true;
-  }
-  return false;
+  return std::ranges::any_of(in_map_, [&](const auto& entry) {
+    const auto& [key_frame, T_map_then] = entry.second;
+    const Pose change = T_map_then.inverse() * T_map_key[key_frame];
+    return change.translation().norm() + kArm * rotation_angle(change) > kMoved;
+  });
 }
 
 void MapUpkeep::put_in(int count, std::span<const Pose> T_map_key, const KeyFrames& key_frames,
@@ -91,7 +92,7 @@ void MapUpkeep::put_in(int count, std::span<const Pose> T_map_key, const KeyFram
     const int k = missing_.back();
     missing_.pop_back();
     mapper.insert(key_frames.features(k), T_map_key[k]);
-    in_map_[k] = T_map_key[k];
+    in_map_.insert_or_assign(cell_of(T_map_key[k]), Inserted{k, T_map_key[k]});
   }
 }
 

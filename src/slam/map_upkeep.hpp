@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
-#include <optional>
+#include <array>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -24,15 +24,16 @@ class MapUpkeep {
   explicit MapUpkeep(double radius) : radius_(radius) {}
 
   /// The next key frame, whose scan the mapper has in the map at this pose.
-  void add(const Pose& T_map_key);
+  void add(int key_frame, const Pose& T_map_key);
 
   /// The mapper has forgotten everything.
   void clear();
 
-  /// After the pose graph has moved. True when the map is drawn anew: then the last key frame is
-  /// where the graph has it, otherwise where the mapper has it.
-  bool follow(std::span<const Pose> T_map_key, const Pieces& pieces, const KeyFrames& key_frames,
-              Mapper& mapper);
+  /// After the pose graph has moved; `places` are the key frames that may be put in. True when the
+  /// map is drawn anew: then the last key frame is where the graph has it, otherwise where the
+  /// mapper has it.
+  bool follow(std::span<const Pose> T_map_key, std::span<const int> places, const Pieces& pieces,
+              const KeyFrames& key_frames, Mapper& mapper);
 
   /// With each scan: puts in some of those that are still missing.
   void go_on(std::span<const Pose> T_map_key, const KeyFrames& key_frames, Mapper& mapper);
@@ -44,13 +45,25 @@ class MapUpkeep {
   }
 
  private:
+  struct Inserted {
+    int key_frame = 0;
+    Pose T_map_key = Pose::Identity();
+
+    template <class Archive>
+    void state(Archive& archive) {
+      archive(key_frame, T_map_key);
+    }
+  };
+  using Cell = std::array<int, 3>;
+
+  static Cell cell_of(const Pose& T_map_key);
   bool has_moved(std::span<const Pose> T_map_key) const;
   void put_in(int count, std::span<const Pose> T_map_key, const KeyFrames& key_frames,
               Mapper& mapper);
 
   double radius_;
-  std::vector<std::optional<Pose>> in_map_;  // of each key frame: where it is in the map, if it is
-  std::vector<int> missing_;                 // to be put in, the nearest last
+  std::map<Cell, Inserted> in_map_;  // of each cell the first, where the map has it
+  std::vector<int> missing_;         // to be put in, the nearest last
 };
 
 }  // namespace lego_loam_sc

@@ -243,7 +243,7 @@ void Slam::State::add_key_frame(const KeyFrame& key_frame, const MapMatch& match
     graph.add_key_frame({number - 1, number, T_map_key.inverse() * match.T_map_lidar, covariance});
   }
   T_map_key = match.T_map_lidar;
-  upkeep.add(T_map_key);
+  upkeep.add(number, T_map_key);
   key_frames.add(key_frame);
 }
 
@@ -258,7 +258,7 @@ void Slam::State::close_loops(ScanContext context, ScanReport& report) {
     report.corrected |= loop.added;
     accepted |= loop.verification.verdict == Verdict::accepted;
   }
-  if (accepted && upkeep.follow(graph.poses(), pieces, key_frames, mapper))
+  if (accepted && upkeep.follow(graph.poses(), loop_closer.places(), pieces, key_frames, mapper))
     previous.T_map_lidar = T_map_key = graph.poses().back();
 }
 
