@@ -58,7 +58,8 @@ PoseEdge measure(const std::vector<Pose>& truth, int from, int to, const Matrix6
 }
 
 PoseGraph chain(const std::vector<Pose>& truth, const Vector6& bias, std::mt19937& random,
-                const GraphSettings& settings = {}) {
+                GraphSettings settings = {}) {
+  settings.precision = 1e-6;
   PoseGraph graph(settings);
   graph.add_first(truth[0]);
   for (int i = 1; i < static_cast<int>(truth.size()); ++i)

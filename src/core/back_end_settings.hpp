@@ -108,6 +108,7 @@ struct GraphSettings {
   double loop_sigma = 0.05;
   double loop_sigma_deg = 0.2;
   double loop_kernel = 3.0;
+  double precision = 0.001;
 
   template <class Self, class Visit>
   static void fields(Self& s, Visit&& visit) {
@@ -120,6 +121,8 @@ struct GraphSettings {
     visit("loop_sigma_deg", s.loop_sigma_deg, 1e-6, 180.0, "deg; the same for rotation");
     visit("loop_kernel", s.loop_kernel, 0.0, 1e6,
           "sigmas; Huber kernel on loop edges, widened by what drift explains; 0 = no kernel");
+    visit("precision", s.precision, 1e-6, 0.1,
+          "m and rad; what moves by less is not linearised anew when a loop comes");
   }
 };
 

@@ -6,13 +6,6 @@
 #include "graph/relative_pose_factor.hpp"
 
 namespace lego_loam_sc {
-namespace {
-
-// m and rad that the links of a stretch may move in all before it is condensed anew: the threshold
-// of iSAM2's fluid relinearisation, carried over to the key frames that iSAM2 does not see.
-constexpr double kMoved = 1e-6;
-
-}  // namespace
 
 void CondensedChain::divide(const std::vector<int>& ends, const std::vector<PoseEdge>& odometry) {
   relatives_.resize(ends.back());
@@ -36,7 +29,7 @@ void CondensedChain::divide(const std::vector<int>& ends, const std::vector<Pose
 
 void CondensedChain::condense_moved(const std::vector<PoseEdge>& odometry) {
   for (Section& section : sections_) {
-    if (section.factor && section.moved < kMoved) continue;
+    if (section.factor && section.moved < precision_) continue;
     Stretch& stretch = section.stretch;
     for (int i = stretch.from; i < stretch.to; ++i)
       links_[i] = linearised(odometry[i], relatives_[i]);

@@ -15,6 +15,10 @@ namespace lego_loam_sc {
 /// two neighbouring ends. Private to the pose graph.
 class CondensedChain {
  public:
+  /// m and rad that the links of a stretch may move in all before it is linearised anew: the
+  /// threshold of iSAM2's fluid relinearisation, carried over to what iSAM2 does not see.
+  explicit CondensedChain(double precision) : precision_(precision) {}
+
   /// `ends` ascend from key frame 0. Stretches between the same ends as before stay as they are.
   void divide(const std::vector<int>& ends, const std::vector<PoseEdge>& odometry);
 
@@ -37,6 +41,7 @@ class CondensedChain {
     double moved = 0.0;                         // m and rad, of all links since then
   };
 
+  double precision_;
   std::vector<Section> sections_;
   std::vector<Link> links_;  // one per odometry edge, where its stretch was condensed
   std::vector<gtsam::Pose3> relatives_;

@@ -10,17 +10,14 @@
 namespace lego_loam_sc {
 namespace {
 
-// m and rad that a variable may move before its factors are linearised anew. Ten times this leaves
-// errors of some micrometres after many loops, and saves no more than a twentieth of the time.
-constexpr double kRelinearise = 1e-6;
 // The cost of an optimum flickers by rounding, and by moves too small to linearise anew.
 constexpr double kFlicker = 1e-6;
 
-gtsam::ISAM2Params incremental_params() {
+gtsam::ISAM2Params incremental_params(double precision) {
   gtsam::ISAM2Params params;
   // The smallest change is carried down to the leaves: a stretch multiplies rotation by its length.
   params.optimizationParams = gtsam::ISAM2GaussNewtonParams(0.0);
-  params.relinearizeThreshold = kRelinearise;
+  params.relinearizeThreshold = precision;
   params.relinearizeSkip = 1;
   params.evaluateNonlinearError = true;
   params.findUnusedFactorSlots = true;  // else each factor ever removed would leave an empty one
@@ -37,7 +34,8 @@ FactorSet set_of(const gtsam::NonlinearFactorGraph& graph) {
 
 }  // namespace
 
-IncrementalSolver::IncrementalSolver() : params_(incremental_params()), tree_(params_) {}
+IncrementalSolver::IncrementalSolver(double precision)
+    : params_(incremental_params(precision)), tree_(params_) {}
 
 gtsam::Values IncrementalSolver::step(const gtsam::NonlinearFactorGraph& graph,
                                       const gtsam::Values& estimate) {

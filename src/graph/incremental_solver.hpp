@@ -12,7 +12,8 @@ namespace lego_loam_sc {
 /// loop: each step eliminates anew what changed factors and moved variables touch, and no more.
 class IncrementalSolver {
  public:
-  IncrementalSolver();
+  /// m and rad that a variable may move before its factors are linearised anew.
+  explicit IncrementalSolver(double precision);
 
   /// One Gauss-Newton step towards the optimum of `graph`; returns all of its variables. Factors
   /// are told apart by their pointers: those that the tree lacks are added, those that `graph`

@@ -23,9 +23,6 @@ using gtsam::Pose3;
 namespace noise = gtsam::noiseModel;
 
 constexpr double kPriorSigma = 1e-3;  // holds the gauge; any value gives the same poses
-// Largest change of a pose, m and entries of the rotation matrix, after which to stop: the next one
-// would be some hundred times smaller.
-constexpr double kConverged = 1e-5;
 // A few steps do, unless a loop pulls about as hard as its kernel allows: its weight then settles
 // slowly.
 constexpr int kMaxIterations = 100;
@@ -46,7 +43,8 @@ void check(const PoseEdge& edge, const char* kind) {
 
 class PoseGraph::Solver {
  public:
-  explicit Solver(const GraphSettings& settings) : settings_(settings) {}
+  explicit Solver(const GraphSettings& settings)
+      : settings_(settings), chain_(settings.precision), incremental_(settings.precision) {}
 
   void add_first(const Pose& T_map_key);
   void add_loop(const PoseEdge& loop);
@@ -107,7 +105,8 @@ void PoseGraph::Solver::optimise() {
     for (const int end : ends) estimate.insert(end, to_gtsam(poses[end]));
     estimate = incremental_.step(graph, estimate);
     chain_.expand(estimate);
-    if (place_key_frames(estimate) < kConverged) break;
+    // The next change would be some hundred times smaller.
+    if (place_key_frames(estimate) < settings_.precision) break;
   }
 }
 

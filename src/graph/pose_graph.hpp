@@ -40,7 +40,8 @@ struct PoseEdge {
 /// factor and splits the stretches that it ends in, and what has moved is linearised anew. Then the
 /// stretches are expanded, and those that have moved are condensed anew in their turn. Repeated
 /// until nothing moves, this is the full Gauss-Newton solution over all key frames at the cost of
-/// one over the loop ends; a key frame without a loop costs one product of poses.
+/// one over the loop ends; a key frame without a loop costs one product of poses. What moves by
+/// less than `precision` counts as still: an update then costs what the loop moves.
 ///
 /// A loop pulls with a Huber kernel: however far apart drift has taken its ends, its pull never
 /// fades as that of Cauchy or Geman-McClure does, so a true loop closes; and it never grows beyond

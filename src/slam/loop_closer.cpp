@@ -23,8 +23,17 @@ constexpr double kContradiction = 7.0;
 // day would let the graph grow without end.
 constexpr double kNothingNew = 0.5;
 constexpr double kSameVisit = 20.0;
-// With each of them the pause before the next doubles, up to this, m.
+// With each of them, and each search whose candidates were all refused, the pause before the next
+// doubles, up to this, m.
 constexpr double kLongestPause = 0.3 * kSameVisit;
+// Until so far after a loop, m, the pose graph knows where it is: then a place that another visit
+// has been as near to as this, m, is known.
+constexpr double kTrusted = 100.0;
+constexpr double kSamePlace = 2.0;
+// Then a loop is expected to tell nothing new, which takes fewer neighbours and voxel sizes to
+// show.
+constexpr int kGlanceNeighbours = 3;
+constexpr int kGlanceLevels = 2;
 // Where so many loops end within this distance, m, another visit is no news unless it disagrees.
 // Chi has six degrees of freedom: 2.5 is a usual value of it.
 constexpr int kWellTied = 10;
@@ -88,19 +97,42 @@ LoopCloser::LoopCloser(const LoopSettings& settings, const GraphSettings& graph,
       contexts_(settings.scan_context),
       pause_(settings.spacing) {}
 
-std::vector<LoopCandidate> LoopCloser::candidates(const KeyFrames& key_frames,
-                                                  const ScanContext& context, const Pieces& pieces,
-                                                  const PoseGraph& graph) const {
+// Key frames of other visits than the one that the newest belongs to.
+int LoopCloser::count_eligible(const KeyFrames& key_frames, const Pieces& pieces) const {
   const int query = static_cast<int>(key_frames.size()) - 1;
-  // Key frames of another visit, not of the same one going on.
   const auto numbers = std::views::iota(0, query);
-  const int eligible = *std::ranges::partition_point(numbers, [&](int k) {
+  return *std::ranges::partition_point(numbers, [&](int k) {
     const auto age_ns =
         static_cast<double>(key_frames.reference_ns(query) - key_frames.reference_ns(k));
     return !pieces.same(k, query) ||
            (key_frames.travelled(query) - key_frames.travelled(k) >= settings_.min_travel &&
             1e-9 * age_ns >= settings_.min_seconds);
   });
+}
+
+std::span<const int> LoopCloser::places_before(int eligible) const {
+  const auto end = std::ranges::lower_bound(places(), eligible);
+  return places().first(static_cast<std::size_t>(end - places().begin()));
+}
+
+bool LoopCloser::place_is_known(double travelled, int eligible, const PoseGraph& graph) const {
+  if (travelled - last_loop_travelled_ > kTrusted) return false;
+  const std::vector<Pose>& poses = graph.poses();
+  const Eigen::Vector3d here = poses.back().translation();
+  return std::ranges::any_of(places_before(eligible), [&](int place) {
+    return (poses[place].translation() - here).norm() <= kSamePlace;
+  });
+}
+
+void LoopCloser::pause(double travelled, double metres) {
+  pause_ = metres;
+  next_search_travelled_ = travelled + metres;
+}
+
+std::vector<LoopCandidate> LoopCloser::candidates(const KeyFrames& key_frames, int eligible,
+                                                  const ScanContext& context, const Pieces& pieces,
+                                                  const PoseGraph& graph) const {
+  const int query = static_cast<int>(key_frames.size()) - 1;
 
   std::vector<LoopCandidate> found;
   if (settings_.scan_context.enabled) {
@@ -112,10 +144,8 @@ std::vector<LoopCandidate> LoopCloser::candidates(const KeyFrames& key_frames,
     }
   }
   if (settings_.radius_search.enabled) {
-    const std::span<const int> before = places().first(
-        static_cast<std::size_t>(std::ranges::lower_bound(places(), eligible) - places().begin()));
     for (const LoopCandidate& candidate :
-         search_radius(graph.poses(), query, before, settings_.radius_search))
+         search_radius(graph.poses(), query, places_before(eligible), settings_.radius_search))
       if (pieces.joined(candidate.match, query)) found.push_back(candidate);
   }
   if (detector_ && eligible > 0) {
@@ -132,9 +162,15 @@ std::vector<LoopCandidate> LoopCloser::candidates(const KeyFrames& key_frames,
   return found;
 }
 
-LoopVerification LoopCloser::verify(const LoopCandidate& candidate, const KeyFrames& key_frames,
-                                    const Pieces& pieces, const PoseGraph& graph) const {
-  const VerifierSettings& settings = settings_.verifier;
+LoopVerification LoopCloser::verify(const LoopCandidate& candidate, Effort effort,
+                                    const KeyFrames& key_frames, const Pieces& pieces,
+                                    const PoseGraph& graph) const {
+  const bool glance = effort == Effort::glance;
+  VerifierSettings settings = settings_.verifier;
+  if (glance) {
+    settings.neighbours = std::min(settings.neighbours, kGlanceNeighbours);
+    settings.levels = std::min(settings.levels, kGlanceLevels);
+  }
   const std::vector<Pose>& poses = graph.poses();
   const Pose expected = poses[candidate.match].inverse() * poses[candidate.query];
   const bool joins = !pieces.joined(candidate.match, candidate.query);
@@ -152,12 +188,13 @@ LoopVerification LoopCloser::verify(const LoopCandidate& candidate, const KeyFra
 
   // A detector may say how the two scans are turned, the pose graph says where they should be.
   std::vector<Pose> guesses;
-  if (candidate.detector != LoopCandidate::Detector::radius) {
+  if (candidate.detector != LoopCandidate::Detector::radius && !glance) {
     Pose turned = Pose::Identity();
     turned.linear() = rotation_from_rpy(0.0, 0.0, candidate.yaw);
     guesses.push_back(turned);
   }
-  if (candidate.detector != LoopCandidate::Detector::scan_context) guesses.push_back(expected);
+  if (candidate.detector != LoopCandidate::Detector::scan_context || glance)
+    guesses.push_back(expected);
   LoopVerification result = verify_loop(
       placed_round(candidate.query, settings.query_neighbours, 0, key_frames, pieces, poses),
       placed_round(candidate.match, settings.neighbours, settings.neighbours, key_frames, pieces,
@@ -175,43 +212,57 @@ LoopVerification LoopCloser::verify(const LoopCandidate& candidate, const KeyFra
 
 std::vector<LoopReport> LoopCloser::close(const KeyFrames& key_frames, ScanContext context,
                                           Pieces& pieces, PoseGraph& graph) {
-  std::vector<LoopReport> reports = find(key_frames, context, pieces, graph);
-  // A place that a loop has told is described already, by the visit before.
-  const bool known = pieces.maps() == 1 && pause_ > settings_.spacing &&
-                     pauses(key_frames.travelled(key_frames.size() - 1));
-  if (!known) contexts_.add(static_cast<int>(key_frames.size()) - 1, std::move(context));
+  const int newest = static_cast<int>(key_frames.size()) - 1;
+  const int eligible = count_eligible(key_frames, pieces);
+  std::vector<LoopReport> reports = find(key_frames, eligible, context, pieces, graph);
+  if (pieces.maps() > 1 || !place_is_known(key_frames.travelled(newest), eligible, graph))
+    contexts_.add(newest, std::move(context));
   return reports;
 }
 
-std::vector<LoopReport> LoopCloser::find(const KeyFrames& key_frames, const ScanContext& context,
-                                         Pieces& pieces, PoseGraph& graph) {
-  std::vector<LoopReport> reports;
-  const double now = key_frames.travelled(key_frames.size() - 1);
-  const bool just_closed = pauses(now);
-  if (just_closed && pieces.maps() == 1) return reports;
+PoseEdge LoopCloser::edge_of(const LoopReport& report) const {
+  const LoopVerification& verification = report.verification;
+  return {report.candidate.match, report.candidate.query, verification.T_match_query,
+          loop_covariance(verification.covariance, verification.T_match_query.linear(),
+                          graph_settings_)};
+}
 
-  for (const LoopCandidate& candidate : candidates(key_frames, context, pieces, graph)) {
+bool LoopCloser::tells_nothing_new(const PoseEdge& loop, double travelled,
+                                   const PoseGraph& graph) const {
+  const double chi = graph.chi(loop);
+  const bool same_visit = travelled - last_loop_travelled_ < kSameVisit;
+  return (same_visit && chi < kNothingNew) || (chi < kDisagreement && well_tied(loop.from, graph));
+}
+
+std::vector<LoopReport> LoopCloser::find(const KeyFrames& key_frames, int eligible,
+                                         const ScanContext& context, Pieces& pieces,
+                                         PoseGraph& graph) {
+  std::vector<LoopReport> reports;
+  const double longer = std::max(pause_, std::min(2.0 * pause_, kLongestPause));
+  const double now = key_frames.travelled(key_frames.size() - 1);
+  const bool pauses = now < next_search_travelled_;
+  if (pauses && pieces.maps() == 1) return reports;
+
+  for (const LoopCandidate& candidate : candidates(key_frames, eligible, context, pieces, graph)) {
     const bool joins = !pieces.joined(candidate.match, candidate.query);
-    if (just_closed && !joins) continue;
+    if (pauses && !joins) continue;
     LoopReport& report = reports.emplace_back();
     report.candidate = candidate;
-    report.verification = verify(candidate, key_frames, pieces, graph);
     LoopVerification& verification = report.verification;
-    if (verification.verdict != Verdict::accepted) continue;
-
-    const PoseEdge loop{candidate.match, candidate.query, verification.T_match_query,
-                        loop_covariance(verification.covariance,
-                                        verification.T_match_query.linear(), graph_settings_)};
-    const double chi = graph.chi(loop);
-    const bool same_visit = now - last_loop_travelled_ < kSameVisit;
-    if (!joins && ((same_visit && chi < kNothingNew) ||
-                   (chi < kDisagreement && well_tied(candidate.match, graph)))) {
+    const auto nothing_new = [&](Effort effort) {
+      verification = verify(candidate, effort, key_frames, pieces, graph);
+      return !joins && verification.verdict == Verdict::accepted &&
+             tells_nothing_new(edge_of(report), now, graph);
+    };
+    const bool expected = !joins && now - last_loop_travelled_ < kTrusted;
+    if ((expected && nothing_new(Effort::glance)) || nothing_new(Effort::full)) {
       last_loop_travelled_ = now;
-      pause_ = std::max(pause_, std::min(2.0 * pause_, kLongestPause));
-      break;
+      pause(now, longer);
+      return reports;
     }
+    if (verification.verdict != Verdict::accepted) continue;
     report.added = true;
-    graph.add_loop(loop);
+    graph.add_loop(edge_of(report));
     graph.optimise();
     const std::size_t added = graph.loop_edges().size() - 1;
     if (graph.loop_chi(added) > kContradiction) {
@@ -223,9 +274,12 @@ std::vector<LoopReport> LoopCloser::find(const KeyFrames& key_frames, const Scan
     }
     if (joins) pieces.join(candidate.match, candidate.query);
     last_loop_travelled_ = now;
-    pause_ = settings_.spacing;
-    break;  // one loop for each key frame
+    pause(now, settings_.spacing);
+    return reports;  // one loop for each key frame
   }
+  const bool tried = std::ranges::any_of(
+      reports, [](const LoopReport& report) { return report.verification.overlap > 0.0; });
+  if (!pauses && tried) next_search_travelled_ = now + settings_.spacing;
   return reports;
 }
 

@@ -31,26 +31,32 @@ class LoopCloser {
   std::vector<LoopReport> close(const KeyFrames& key_frames, ScanContext context, Pieces& pieces,
                                 PoseGraph& graph);
 
-  /// The key frames that stand for their places, in ascending order. Others were taken where a loop
-  /// had just told that the place is known.
+  /// The key frames that stand for their places, in ascending order; all but those of known places.
   std::span<const int> places() const { return contexts_.key_frames(); }
 
   /// See core/state_archive.hpp.
   template <class Archive>
   void state(Archive& archive) {
-    archive(contexts_, last_loop_travelled_, pause_);
+    archive(contexts_, last_loop_travelled_, next_search_travelled_, pause_);
   }
 
  private:
-  std::vector<LoopReport> find(const KeyFrames& key_frames, const ScanContext& context,
-                               Pieces& pieces, PoseGraph& graph);
-  std::vector<LoopCandidate> candidates(const KeyFrames& key_frames, const ScanContext& context,
-                                        const Pieces& pieces, const PoseGraph& graph) const;
-  LoopVerification verify(const LoopCandidate& candidate, const KeyFrames& key_frames,
-                          const Pieces& pieces, const PoseGraph& graph) const;
+  int count_eligible(const KeyFrames& key_frames, const Pieces& pieces) const;
+  std::vector<LoopReport> find(const KeyFrames& key_frames, int eligible,
+                               const ScanContext& context, Pieces& pieces, PoseGraph& graph);
+  std::vector<LoopCandidate> candidates(const KeyFrames& key_frames, int eligible,
+                                        const ScanContext& context, const Pieces& pieces,
+                                        const PoseGraph& graph) const;
+  enum class Effort { glance, full };
+  LoopVerification verify(const LoopCandidate& candidate, Effort effort,
+                          const KeyFrames& key_frames, const Pieces& pieces,
+                          const PoseGraph& graph) const;
 
-  // Whether the last loop is too near, m along the path, for the next to be sought.
-  bool pauses(double travelled) const { return travelled - last_loop_travelled_ < pause_; }
+  std::span<const int> places_before(int eligible) const;
+  bool place_is_known(double travelled, int eligible, const PoseGraph& graph) const;
+  PoseEdge edge_of(const LoopReport& report) const;
+  bool tells_nothing_new(const PoseEdge& loop, double travelled, const PoseGraph& graph) const;
+  void pause(double travelled, double metres);
 
   LoopSettings settings_;
   GraphSettings graph_settings_;
@@ -58,7 +64,8 @@ class LoopCloser {
   LoopDetector detector_;
   ScanContextIndex contexts_;
   double last_loop_travelled_ = -1e9;  // m along the path
-  double pause_;                       // m to travel before the next is sought
+  double next_search_travelled_ = 0.0;
+  double pause_;  // m
 };
 
 }  // namespace lego_loam_sc

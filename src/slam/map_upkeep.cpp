@@ -16,9 +16,10 @@ constexpr double kArm = 10.0;
 constexpr int kAtOnce = 12;
 constexpr int kWithEachScan = 3;
 
-// m; of the key frames in a cell of this size one is enough. Whoever drives the same way all day
-// would otherwise have all of them put in again and again.
-constexpr double kCell = 1.0;
+// m; of the key frames in a cell of this size one is enough, and of the radius of the local map
+// this share. Whoever drives the same ways all day would otherwise have very many of them put in.
+constexpr double kCell = 4.0;
+constexpr double kNear = 0.5;
 
 double distance(const Pose& a, const Pose& b) {
   return (a.translation() - b.translation()).norm();
@@ -30,7 +31,7 @@ void MapUpkeep::add(int key_frame, const Pose& T_map_key) {
   std::erase_if(in_map_, [&](const auto& entry) {
     return distance(entry.second.T_map_key, T_map_key) > radius_;
   });
-  in_map_.try_emplace(cell_of(T_map_key), key_frame, T_map_key);
+  in_map_.insert_or_assign(cell_of(T_map_key), Inserted{key_frame, T_map_key});
 }
 
 void MapUpkeep::clear() {
@@ -50,7 +51,7 @@ bool MapUpkeep::follow(std::span<const Pose> T_map_key, std::span<const int> pla
   std::vector<std::pair<double, int>> near = {{0.0, last}};
   for (const int k : places) {
     const double away = distance(T_map_key[k], T_map_key[last]);
-    if (away <= radius_ && pieces.joined(k, last)) near.emplace_back(away, k);
+    if (away <= kNear * radius_ && pieces.joined(k, last)) near.emplace_back(away, k);
   }
   std::sort(near.begin(), near.end());
   std::set<Cell> taken;

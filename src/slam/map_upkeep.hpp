@@ -62,7 +62,7 @@ class MapUpkeep {
               Mapper& mapper);
 
   double radius_;
-  std::map<Cell, Inserted> in_map_;  // of each cell the first, where the map has it
+  std::map<Cell, Inserted> in_map_;  // of each cell the last, where the map has it
   std::vector<int> missing_;         // to be put in, the nearest last
 };
 
