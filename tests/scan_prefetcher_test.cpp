@@ -93,6 +93,7 @@ TEST(ScanPrefetcher, AnInterruptEndsTheWaitForAReaderThatWaitsForEver) {
     ScanPrefetcher prefetcher(source);
     return !prefetcher.next() && interrupted();
   };
+  GTEST_FLAG_SET(death_test_style, "threadsafe");  // it has a thread to begin
   EXPECT_EXIT(std::exit(read_until_interrupted() ? 0 : 1), testing::ExitedWithCode(0), "");
 }
 
