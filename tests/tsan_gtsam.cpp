@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Part of the tests under ThreadSanitizer, of no others. GTSAM linearises the factors of a graph on
-// the threads of TBB, and neither library is instrumented: what was done to a factor before seems to
-// have no order with what TBB's threads do with it. So these two functions, found before GTSAM's
+// the threads of TBB, and neither library is instrumented: what was done to a factor before seems
+// to have no order with what TBB's threads do with it. So these two functions, found before GTSAM's
 // own, tell the order that TBB keeps: all that came before a graph is linearised, its factors in no
 // order among themselves, all that comes after.
 #include <dlfcn.h>
