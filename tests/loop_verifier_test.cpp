@@ -238,6 +238,7 @@ TEST(LoopCloser, WhoDrivesTheSameRoundAgainAndAgainIsTiedOnceAndSearchedForSeldo
   PoseGraph graph{GraphSettings{}};
   LoopCloser closer({}, {}, kNoise);
   std::vector<int> added(kRounds), verified(kRounds);
+  std::size_t places_of_first_rounds = 0;
   for (int k = 0; k < kVisits * kRounds; ++k) {
     Visit v = visits[k % kVisits];
     v.key_frame.travelled = kStep * k;
@@ -252,7 +253,9 @@ TEST(LoopCloser, WhoDrivesTheSameRoundAgainAndAgainIsTiedOnceAndSearchedForSeldo
       ++verified[k / kVisits];
       added[k / kVisits] += report.added;
     }
+    if (k == 2 * kVisits) places_of_first_rounds = closer.places().size();
   }
+  EXPECT_EQ(closer.places().size(), places_of_first_rounds);
   for (int round = 1; round < kRounds; ++round) {
     EXPECT_LE(added[round], 1) << round;
     EXPECT_GE(verified[round], 2) << round;

@@ -57,9 +57,14 @@ PoseEdge measure(const std::vector<Pose>& truth, int from, int to, const Matrix6
   return {from, to, truth[from].inverse() * truth[to] * exp_se3(error), covariance};
 }
 
-PoseGraph chain(const std::vector<Pose>& truth, const Vector6& bias, std::mt19937& random,
-                GraphSettings settings = {}) {
+GraphSettings exact() {
+  GraphSettings settings;
   settings.precision = 1e-6;
+  return settings;
+}
+
+PoseGraph chain(const std::vector<Pose>& truth, const Vector6& bias, std::mt19937& random,
+                const GraphSettings& settings = exact()) {
   PoseGraph graph(settings);
   graph.add_first(truth[0]);
   for (int i = 1; i < static_cast<int>(truth.size()); ++i)
@@ -117,7 +122,7 @@ TEST(PoseGraph, ClosesTwelveMetresOfDriftInHeightDespiteTheKernel) {
   const std::vector<Pose> truth = square_path(201, 50, Pose::Identity());
   const auto solve = [&](double kernel) {
     std::mt19937 random(3);
-    GraphSettings settings;
+    GraphSettings settings = exact();
     settings.loop_kernel = kernel;
     PoseGraph graph = chain(truth, bias_of(0.06, 0.0, 0.0), random, settings);
     EXPECT_GT(std::abs(graph.poses()[200].translation().z()), 11.0);
@@ -132,7 +137,7 @@ TEST(PoseGraph, ClosesTwelveMetresOfDriftInHeightDespiteTheKernel) {
 
 TEST(PoseGraph, AgreesWithADenseSolutionOverAllPoses) {
   std::mt19937 random(4);
-  GraphSettings settings;
+  GraphSettings settings = exact();
   settings.loop_kernel = 0.0;
   const Pose start(Eigen::Translation3d(3, -2, 1) *
                    Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitZ()));
@@ -154,6 +159,25 @@ TEST(PoseGraph, AgreesWithADenseSolutionOverAllPoses) {
   EXPECT_LT(largest_distance(graph.poses(), expected), 1e-6);
   for (std::size_t i = 0; i < expected.size(); ++i)
     EXPECT_LT(rotation_angle(expected[i].inverse() * graph.poses()[i]), 1e-6);
+}
+
+// Loop after loop, as a drive finds them.
+TEST(PoseGraph, IsExactToTheMillimetreUnlessMoreIsAskedFor) {
+  const auto solve = [](const GraphSettings& settings) {
+    std::mt19937 random(9);
+    const std::vector<Pose> truth = square_path(1000, 50, Pose::Identity());
+    PoseGraph graph(settings);
+    graph.add_first(truth[0]);
+    for (int i = 1; i < 1000; ++i) {
+      graph.add_key_frame(
+          measure(truth, i - 1, i, kOdometryCovariance, sample(kOdometryCovariance, random)));
+      if (i < 200 || i % 20 != 0) continue;
+      graph.add_loop(measure(truth, i - 200, i, kLoopCovariance, sample(kLoopCovariance, random)));
+      graph.optimise();
+    }
+    return graph.poses();
+  };
+  EXPECT_LT(largest_distance(solve({}), solve(exact())), 1e-3);
 }
 
 TEST(PoseGraph, IsAsExactFarFromTheOrigin) {

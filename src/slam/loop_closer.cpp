@@ -36,7 +36,7 @@ constexpr int kGlanceNeighbours = 3;
 constexpr int kGlanceLevels = 2;
 // Where so many loops end within this distance, m, another visit is no news unless it disagrees.
 // Chi has six degrees of freedom: 2.5 is a usual value of it.
-constexpr int kWellTied = 10;
+constexpr int kWellTied = 5;
 constexpr double kPlace = 50.0;
 constexpr double kDisagreement = 2.5;
 // Between two maps there is no pose graph to contradict a candidate. So more of them are tried, and
