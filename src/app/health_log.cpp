@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "core/time.hpp"
+
 namespace lego_loam_sc {
 namespace {
 
@@ -25,8 +27,7 @@ double HealthLog::follow_delay(const ScanReport& report) {
   const double busy_s =
       1e-3 * std::accumulate(report.milliseconds.begin(), report.milliseconds.end(), 0.0);
   const bool is_step = stamp_ns_ && report.stamp_jump_s == 0.0;
-  const double since_last_s =
-      is_step ? 1e-9 * static_cast<double>(report.stamp_ns - *stamp_ns_) : sensor_.period;
+  const double since_last_s = is_step ? seconds(report.stamp_ns - *stamp_ns_) : sensor_.period;
   stamp_ns_ = report.stamp_ns;
   delay_s_ = std::max(0.0, delay_s_ - since_last_s) + busy_s;
   return delay_s_;

@@ -2,7 +2,6 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <cmath>
 #include <csignal>
 #include <cstddef>
 #include <cstdint>
@@ -18,6 +17,7 @@
 #include "app/commands.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
+#include "core/time.hpp"
 #include "io/append_file.hpp"
 #include "io/scan_stream.hpp"
 #include "io/sensor_yaml.hpp"
@@ -105,7 +105,7 @@ void simulate(const Options& options) {
       [&, T_vehicle_lidar = mounting(sensor, world.sensor_height)](std::int64_t time_ns) -> Pose {
     return world.motion.pose(time_ns) * T_vehicle_lidar;
   };
-  const std::int64_t period = std::llround(sensor.period * 1e9);
+  const std::int64_t period = nanoseconds(sensor.period);
   // The last scan of a whole drive is taken at its end.
   const std::int64_t whole_drive = (world.motion.duration_ns + period - 1) / period + 1;
   const std::int64_t count = options.count.value_or(whole_drive);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/pose.hpp"
+#include "core/time.hpp"
 #include "io/beams.hpp"
 #include "io/error.hpp"
 #include "io/recognise_sensor.hpp"
@@ -154,7 +155,7 @@ void learn_rotation(const Scan& scan, const std::vector<std::int16_t>& beam_of_p
 void learn_period(std::span<const Scan> scans, LearnedSensor& learned) {
   std::vector<double> gaps;  // s
   for (std::size_t s = 1; s < scans.size(); ++s)
-    gaps.push_back(1e-9 * static_cast<double>(scans[s].stamp_ns - scans[s - 1].stamp_ns));
+    gaps.push_back(seconds(scans[s].stamp_ns - scans[s - 1].stamp_ns));
   if (gaps.empty()) return;
   const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
   std::nth_element(gaps.begin(), middle, gaps.end());

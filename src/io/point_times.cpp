@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/time.hpp"
 #include "io/error.hpp"
 #include "io/text.hpp"
 
@@ -69,10 +70,6 @@ std::size_t decide_unit(const Limits& limits, NumberType type, const StampHint& 
   fail(limits, type, file);
 }
 
-std::int64_t to_nanoseconds(double seconds) {
-  return std::llround(seconds * 1e9);
-}
-
 // What the times count from.
 struct Origin {
   double time;            // of the scan's stamp, in the unit of the times
@@ -83,13 +80,13 @@ struct Origin {
 Origin decide_origin(const Limits& limits, double scale, const StampHint& hint) {
   const double earliest = limits.earliest * scale;
   const double latest = limits.latest * scale;
-  const double stamp = static_cast<double>(hint.stamp_ns) * 1e-9;
+  const double stamp = seconds(hint.stamp_ns);
   if (std::max(std::abs(earliest), std::abs(latest)) <= kSameClock)
     return {0.0, hint.stamp_ns, "from the stamp of the scan"};
   if (hint.certain && std::abs(earliest - stamp) <= kSameClock)
     return {stamp / scale, hint.stamp_ns, "on the clock of the stamp"};
   if (!hint.certain && std::abs(earliest) < kLatestStamp)
-    return {limits.earliest, to_nanoseconds(earliest), "on a clock that gives the stamp too"};
+    return {limits.earliest, nanoseconds(earliest), "on a clock that gives the stamp too"};
   return {limits.earliest, hint.stamp_ns,
           "on another clock than the stamp, the first is taken for it"};
 }
@@ -115,7 +112,7 @@ PointTimes interpret_point_times(std::span<const double> times, NumberType type,
   for (std::size_t i = 0; i < times.size(); ++i)
     if (std::isfinite(times[i]))  // the difference before the scale: it keeps the file's accuracy
       result.offset_ns[i] =
-          static_cast<std::int32_t>(to_nanoseconds((times[i] - origin.time) * scale));
+          static_cast<std::int32_t>(nanoseconds((times[i] - origin.time) * scale));
   const auto milliseconds = [&](double time) {
     return to_fixed((time - origin.time) * scale * 1e3, 1);
   };

@@ -117,7 +117,7 @@ Drive parking2_drive(const DriveSettings& settings) {
     if (i > 0) distance = passage(route, passages[i - 1], distance);
     stretches.push_back({distance, grounds[i]});
   }
-  return Drive(route, stretches, settings);
+  return {route, stretches, settings};
 }
 
 Mesh one_storey(const StoreyPlan& plan, std::uint64_t seed) {
@@ -129,9 +129,8 @@ Mesh one_storey(const StoreyPlan& plan, std::uint64_t seed) {
 
 Drive drive_on(const StoreyPlan& plan, const std::vector<Vector2d>& waypoints, double corner_radius,
                const DriveSettings& settings) {
-  return Drive(
-      Route(waypoints, corner_radius),
-      [plan](double x, double y) { return floor_height(plan, x, y); }, settings);
+  return {Route(waypoints, corner_radius),
+          [plan](double x, double y) { return floor_height(plan, x, y); }, settings};
 }
 
 DriveSettings vehicle(double speed, std::uint64_t seed) {
@@ -157,7 +156,7 @@ Pose at(double x, double y, double yaw_deg) {
 
 }  // namespace
 
-World make_car_park(std::uint64_t seed) {
+World make_parking(std::uint64_t seed) {
   const StoreyPlan plan = parking_plan();
   Mesh mesh = one_storey(plan, seed);
   add_entrance(mesh, at(80.0, 25.0, 0.0));

@@ -12,7 +12,7 @@ namespace lego_loam_sc {
 /// One storey, 80 m x 50 m, 2.8 m high: three aisles joined by three cross aisles, bays mostly
 /// occupied, columns, beams, pipes, speed bumps, a stair core and the foot of a ramp. The drive is
 /// a figure of eight of some 260 m; it passes its start once and ends exactly there.
-World make_car_park(std::uint64_t seed);
+World make_parking(std::uint64_t seed);
 
 /// The paper's scene #1: one storey, 76 m x 50 m, with speed bumps and gullies. The drive goes once
 /// round the hall, 180 m; it starts in front of an entrance and ends exactly there.

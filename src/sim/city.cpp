@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/city.hpp"
 
-#include <cmath>
 #include <vector>
 
+#include "core/time.hpp"
 #include "sim/city_ground.hpp"
 #include "sim/city_lots.hpp"
 #include "sim/city_route.hpp"
@@ -59,11 +59,11 @@ World make_city(std::uint64_t seed, const Trajectory& route) {
   const Shaking shaking{.roll_deg = 0.1, .pitch_deg = 0.12, .yaw_deg = 0.03, .z = 0.008};
   world.motion.pose = [track, terrain,
                        shake = ShakingMotion(shaking, hash(seed, 3))](std::int64_t time_ns) {
-    const double time = static_cast<double>(time_ns) * 1e-9;
+    const double time = seconds(time_ns);
     const Vector3d plan = track.plan.at(time);
     return stand_on(terrain, plan.head<2>(), plan.z()) * shake.at(time);
   };
-  world.motion.duration_ns = std::llround(track.plan.end() * 1e9);
+  world.motion.duration_ns = nanoseconds(track.plan.end());
   world.traffic = make_city_traffic(way, terrain, lanes, hash(seed, 4));
   world.range_noise = 0.025;
   world.worn_sensor = true;

@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 
 // Rough surfaces return more at a flat angle than the cosine says; their reflectivity makes up for
 // it, so that asphalt is seen as far as in recordings.
-constexpr double kAsphalt = 0.45, kStone = 0.5, kGrass = 0.5;
+constexpr double kRoughAsphalt = 0.45, kStone = 0.5, kGrass = 0.5;
 constexpr double kRoadBumps = 0.006, kPlotBumps = 0.025;  // m
 // Cells of the map across a patch of even ground: near the lanes, and where no lane is near.
 constexpr int kPatch = 2, kFarPatch = 8;
@@ -87,7 +87,7 @@ class GroundBuilder {
       raised.push_back(crossing);
     }
     const bool plot = lanes_.distance(i0, j0) > kFenceLine;
-    add_polygon(road, 0.0, kRoadBumps, kAsphalt);
+    add_polygon(road, 0.0, kRoadBumps, kRoughAsphalt);
     add_polygon(raised, kKerbHeight, plot ? kPlotBumps : kRoadBumps, plot ? kGrass : kStone);
     for (std::size_t k = 0; k < raised.size(); ++k) {
       const Point& a = raised[k];

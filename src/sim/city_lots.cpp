@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "sim/facade.hpp"
+#include "sim/materials.hpp"
 #include "sim/occupancy.hpp"
 #include "sim/props.hpp"
 #include "sim/random.hpp"
@@ -17,7 +18,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kPlaster = 0.45, kSteel = 0.4;
+constexpr double kPlaster = 0.45;  // reflectivity
 constexpr double kRoom = 1.45;     // m between the middle of a lane and a parked car
 constexpr double kBackRow = 22.0;  // m between the fence line and the second row of houses
 constexpr double kGarden = 11.0;   // m between the trees behind the houses

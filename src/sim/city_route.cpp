@@ -18,6 +18,7 @@ constexpr double kSensorHeight = 1.73;  // m
 // The middle of the street is rounded with the larger radius as far as `kCornerLeg` (m) on either
 // side of a crossing allows: gentle bends are long, a right angle has a radius of half the leg.
 constexpr double kRadius = 150.0, kCornerLeg = 24.0;
+constexpr double kSpacing = 3.0;                 // m between the points of the lane
 constexpr double kEndBeyondStart = 25.0;         // m
 constexpr std::int64_t kInterval = 100'000'000;  // ns
 
@@ -66,7 +67,7 @@ double hill(const Vector2d& p) {
          2.0 * std::sin(p.y() / 60.0);
 }
 
-// The right-hand lane, every three metres.
+// The right-hand lane, as points `kSpacing` apart.
 Polyline lane() {
   std::vector<Vector2d> waypoints = {place_of(kWay.front())};
   for (std::size_t k = 1; k < kWay.size(); ++k) {
@@ -80,7 +81,7 @@ Polyline lane() {
   const Route middle(waypoints, kRadius);
   const double first_street = (place_of(kWay[1]) - place_of(kWay[0])).norm();
   Polyline line;
-  for (double s = 0.0; s <= middle.length() - first_street + kEndBeyondStart; s += 3.0)
+  for (double s = 0.0; s <= middle.length() - first_street + kEndBeyondStart; s += kSpacing)
     line.push_back(middle.at(s).position);
   return shifted(line, -0.5 * kLaneOffset);
 }
@@ -92,7 +93,8 @@ Trajectory make_city_route() {
   Trajectory route;
   std::size_t first = 0;
   for (const Leg& leg : kLegs) {
-    const std::size_t last = std::min(static_cast<std::size_t>(leg.end / 3.0), line.size() - 1);
+    const std::size_t last =
+        std::min(static_cast<std::size_t>(leg.end / kSpacing), line.size() - 1);
     const std::vector<Vector2d> points(line.begin() + static_cast<std::ptrdiff_t>(first),
                                        line.begin() + static_cast<std::ptrdiff_t>(last) + 1);
     const DriveSettings settings{

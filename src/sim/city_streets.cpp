@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/left_of.hpp"
 #include "sim/random.hpp"
 
 namespace lego_loam_sc {
@@ -17,10 +18,6 @@ constexpr double kMouth = 25.0;          // m in which a side street leaves the 
 constexpr double kApart = 20.0;          // m between it and the others from there on
 constexpr double kBend = 0.8;            // rad within 24 m: the route turns into another street
 constexpr double kBetweenMouths = 45.0;  // m along the route
-
-Vector2d left_of(const Vector2d& a) {
-  return {-a.y(), a.x()};
-}
 
 // Angle by which the route turns between 12 m before and 12 m after.
 double turn_at(const UniformSpline<Vector2d>& path, double s) {
@@ -56,9 +53,7 @@ class SideStreets {
   }
 
  private:
-  LaneMap map_of_streets() const {
-    return LaneMap(lanes_of(streets_), low_, high_, 4.0, kApart + 6.0);
-  }
+  LaneMap map_of_streets() const { return {lanes_of(streets_), low_, high_, 4.0, kApart + 6.0}; }
 
   std::vector<Street>& streets_;
   Vector2d low_, high_;

@@ -7,9 +7,13 @@
 #include <memory>
 #include <utility>
 
+#include "core/time.hpp"
 #include "sim/city_streets.hpp"
+#include "sim/left_of.hpp"
+#include "sim/materials.hpp"
 #include "sim/props.hpp"
 #include "sim/random.hpp"
+#include "sim/smooth_step.hpp"
 
 namespace lego_loam_sc {
 namespace {
@@ -21,7 +25,7 @@ constexpr std::size_t kCars = 4;  // models of cars, then those of a cyclist and
 constexpr std::size_t kCyclist = kCars, kWalker = kCars + 1;
 constexpr double kBeyond = 70.0;    // m; the street goes on so far before and after the way
 constexpr double kPavement = 4.75;  // m from the lane to the walkers
-constexpr double kCloth = 0.3, kSteel = 0.4;
+constexpr double kCloth = 0.3;      // reflectivity
 
 Mesh make_walker() {
   Mesh mesh;
@@ -53,11 +57,6 @@ std::vector<Mesh> make_models(Random random) {
   return models;
 }
 
-double smooth_step(double x) {
-  x = std::clamp(x, 0.0, 1.0);
-  return x * x * (3.0 - 2.0 * x);
-}
-
 // The way, the ground and the vehicle, shared by all movers.
 struct Stage {
   Way way;
@@ -68,19 +67,12 @@ struct Stage {
   // A place `left` (m) of the way at `distance` (m), heading along it or, `back`, against it.
   Pose place(double distance, double left, bool back) const {
     const Vector2d along = way.path.derivative(distance).normalized();
-    const Vector2d place = way.path.at(distance) + left * Vector2d(-along.y(), along.x());
+    const Vector2d place = way.path.at(distance) + left * left_of(along);
     const Vector2d heading = back ? Vector2d(-along) : along;
     return stand_on(terrain, place, std::atan2(heading.y(), heading.x()));
   }
   Pose vehicle(double time) const { return place(way.travelled.at(time), 0.0, false); }
 };
-
-double seconds(std::int64_t ns) {
-  return static_cast<double>(ns) * 1e-9;
-}
-std::int64_t nanoseconds(double s) {
-  return std::llround(s * 1e9);
-}
 
 // Three circles cover a car with some room, so two cars are apart when all their circles are.
 bool apart(const Pose& a, const Pose& b) {

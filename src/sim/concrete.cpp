@@ -5,13 +5,15 @@
 #include <cmath>
 #include <utility>
 
+#include "sim/materials.hpp"
+
 namespace lego_loam_sc {
 namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kAsphalt = 0.2, kSteel = 0.4, kPaint = 0.7;
+constexpr double kPaint = 0.7;  // reflectivity
 
 }  // namespace
 

@@ -11,8 +11,6 @@ namespace lego_loam_sc {
 
 // Walls and ways of an underground building. All lengths in m.
 
-constexpr double kConcrete = 0.35;  ///< reflectivity
-
 /// The farthest that a part of a wall stands back behind the wall's line.
 constexpr double kSetback = 0.3;
 

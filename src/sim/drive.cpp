@@ -6,6 +6,10 @@
 #include <iterator>
 #include <utility>
 
+#include "core/time.hpp"
+#include "sim/left_of.hpp"
+#include "sim/smooth_step.hpp"
+
 namespace lego_loam_sc {
 namespace {
 
@@ -36,16 +40,11 @@ std::vector<double> speed_profile(const Route& route, const DriveSettings& setti
   return squared;
 }
 
-double smooth_step(double x) {
-  x = std::clamp(x, 0.0, 1.0);
-  return x * x * (3.0 - 2.0 * x);
-}
-
 // The vehicle stands on its four wheels.
 Pose pose_on_ground(const Ground& ground, const Route::Point& point, double wheel_base,
                     double track_width) {
   const Vector2d along = 0.5 * wheel_base * point.direction;
-  const Vector2d left = 0.5 * track_width * Vector2d(-point.direction.y(), point.direction.x());
+  const Vector2d left = 0.5 * track_width * left_of(point.direction);
   const auto height = [&](const Vector2d& offset) {
     const Vector2d wheel = point.position + offset;
     return ground(wheel.x(), wheel.y());
@@ -85,7 +84,7 @@ std::int64_t Drive::duration_ns() const {
 }
 
 Pose Drive::pose(std::int64_t time_ns) const {
-  const double time = std::clamp(static_cast<double>(time_ns) * 1e-9, 0.0, times_.back());
+  const double time = std::clamp(seconds(time_ns), 0.0, times_.back());
   const double distance = distance_at(time);
   return pose_on_ground(ground_at(distance), route_.at(distance), wheel_base_, track_width_) *
          shaking_at(time);

@@ -4,13 +4,14 @@
 #include <algorithm>
 #include <numbers>
 
+#include "sim/materials.hpp"
+
 namespace lego_loam_sc {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kWood = 0.35, kMetal = 0.4;
-constexpr double kGlass = 0.0005;     // it mirrors: hardly anything comes back
+constexpr double kWood = 0.35;        // reflectivity
 constexpr double kBelowGround = 0.8;  // m; no gap opens where the ground falls away
 
 // What the walls of one house have in common.
@@ -99,7 +100,7 @@ void add_wall(Mesh& mesh, const Pose& wall, double width, int storeys, bool with
     if (style.pilasters)
       add_box(mesh, foot, {0.4, 0.24, kBelowGround + height}, style.plaster);
     else
-      add_cylinder(mesh, foot, 0.06, kBelowGround + height, kMetal);  // a downpipe
+      add_cylinder(mesh, foot, 0.06, kBelowGround + height, kSteel);  // a downpipe
   }
   add_box(mesh, wall * Eigen::Translation3d(0.5 * width, 0.0, -kBelowGround),
           {width, 0.1, kBelowGround + 0.4}, 0.6 * style.plaster);  // the plinth

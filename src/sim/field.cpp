@@ -29,7 +29,7 @@ Route make_route() {
   const std::vector<Vector2d> waypoints = {{50, 0},   {84, 0},  {114, 14}, {122, 42},
                                            {110, 72}, {78, 88}, {36, 82},  {4, 60},
                                            {0, 24},   {18, 0},  {50, 0}};
-  return Route(waypoints, 25.0);
+  return {waypoints, 25.0};
 }
 
 double hills(double x, double y) {
@@ -94,7 +94,7 @@ Drive make_drive(std::uint64_t seed) {
       .track_width = 1.2,
       .shaking = {.roll_deg = 0.8, .pitch_deg = 0.8, .yaw_deg = 0.3, .z = 0.015},
       .seed = hash(seed, 1)};
-  return Drive(make_route(), hills, settings);
+  return {make_route(), hills, settings};
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/time.hpp"
 #include "sim/random.hpp"
 
 namespace lego_loam_sc {
@@ -36,7 +37,7 @@ std::vector<Firing> firings_by_azimuth(const SensorModel& sensor) {
     const double swept_deg = sensor.clockwise ? -360.0 * turn : 360.0 * turn;
     const double azimuth_deg = std::fmod(sensor.start_azimuth_deg + swept_deg + 720.0, 360.0);
     firings.push_back({azimuth_deg,
-                       static_cast<std::int32_t>(std::llround(turn * sensor.period * 1e9)),
+                       static_cast<std::int32_t>(nanoseconds(turn * sensor.period)),
                        {std::cos(radians(azimuth_deg)), std::sin(radians(azimuth_deg)), 0.0}});
   }
   std::ranges::sort(firings, {}, &Firing::azimuth_deg);
@@ -107,8 +108,8 @@ Scan sweep(const RayCaster& world, const SensorModel& sensor, const LidarPose& l
   const std::uint64_t scan_key = hash(settings.seed, static_cast<std::uint64_t>(stamp_ns));
   // Noise may bring a point from beyond the maximum range back into it.
   const double reach = sensor.max_range + 5.0 * settings.noise;
-  const std::vector<Traffic::Neighbour> neighbours = traffic.near(
-      lidar_pose(stamp_ns).translation(), reach, stamp_ns, std::llround(sensor.period * 1e9));
+  const std::vector<Traffic::Neighbour> neighbours =
+      traffic.near(lidar_pose(stamp_ns).translation(), reach, stamp_ns, nanoseconds(sensor.period));
 
   std::vector<Echo> echoes(rows * columns);
   tbb::parallel_for(std::size_t{0}, columns, [&](std::size_t column) {

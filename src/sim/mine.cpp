@@ -80,7 +80,7 @@ Drive make_drive(const Rock& rock, std::uint64_t seed) {
       .track_width = 1.2,
       .shaking = {.roll_deg = 0.6, .pitch_deg = 0.6, .yaw_deg = 0.3, .z = 0.012},
       .seed = hash(seed, 1)};
-  return Drive(Route(waypoints, kCornerRadius), rock.floor, settings);
+  return {Route(waypoints, kCornerRadius), rock.floor, settings};
 }
 
 }  // namespace

@@ -5,15 +5,17 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/materials.hpp"
+
 namespace lego_loam_sc {
 namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kSteel = 0.4, kRust = 0.2, kRubber = 0.06, kTimber = 0.35, kPaint = 0.6,
-                 kSpoil = 0.12;
-constexpr double kPiece = 3.0;  // m; pipes and belts come in straight pieces
+constexpr double kRust = 0.2, kRubber = 0.06, kTimber = 0.35, kPaint = 0.6,
+                 kSpoil = 0.12;  // reflectivities
+constexpr double kPiece = 3.0;   // m; pipes and belts come in straight pieces
 
 // Where things stand along a wall, m beside the line: the rock reaches round some of them.
 double clear_side(const Roadway& roadway, double distance) {

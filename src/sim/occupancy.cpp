@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/left_of.hpp"
+
 namespace lego_loam_sc {
 namespace {
 
@@ -30,7 +32,7 @@ std::size_t Occupancy::cell_of(const Vector2d& place) const {
 
 template <class Visit>
 bool Occupancy::every_place(const Footprint& f, Visit visit) const {
-  const Vector2d across(-f.along.y(), f.along.x());
+  const Vector2d across = left_of(f.along);
   const int n = static_cast<int>(std::ceil(f.length / kStep));
   const int m = static_cast<int>(std::ceil(f.width / kStep));
   for (int i = 0; i <= n; ++i)

@@ -4,13 +4,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/materials.hpp"
+
 namespace lego_loam_sc {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kRubber = 0.05, kGlass = 0.0005, kSteel = 0.4, kBark = 0.25, kLeaf = 0.45,
-                 kSign = 0.9;
+constexpr double kRubber = 0.05, kBark = 0.25, kLeaf = 0.45, kSign = 0.9;  // reflectivities
 
 Pose at(const Pose& base, double x, double y, double z) {
   return base * Eigen::Translation3d(x, y, z);

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 
+#include "core/time.hpp"
 #include "io/error.hpp"
 #include "io/text.hpp"
 #include "io/trajectory.hpp"
@@ -25,10 +26,6 @@ constexpr double kMinLength = 20.0;      // m
 constexpr double kMaxExtent = 4000.0;    // m; the city is as large as the route
 constexpr double kMaxSpeed = 60.0;       // m/s
 constexpr double kLongest = 4 * 3600.0;  // s
-
-double seconds(std::int64_t ns) {
-  return static_cast<double>(ns) * 1e-9;
-}
 
 // x, y, z, yaw of each pose.
 using Sample = Eigen::Vector4d;
@@ -106,7 +103,7 @@ std::vector<Sample> smoothed(const std::vector<Sample>& samples, double period) 
   for (Eigen::Index i = 0; i < n; ++i) values.row(i) = samples[static_cast<std::size_t>(i)];
   const Eigen::MatrixX4d solved = solver.solve(values);
   std::vector<Sample> result;
-  for (Eigen::Index i = 0; i < n; ++i) result.push_back(solved.row(i));
+  for (Eigen::Index i = 0; i < n; ++i) result.emplace_back(solved.row(i));
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "sim/left_of.hpp"
 #include "sim/noise.hpp"
 
 namespace lego_loam_sc {
@@ -33,10 +34,6 @@ double octave(const Octave& o, const Vector3d& place, std::uint64_t seed) {
 
 Vector3d on_plan(const Vector2d& place, double z = 0.0) {
   return {place.x(), place.y(), z};
-}
-
-Vector2d left_of(const Vector2d& direction) {
-  return {-direction.y(), direction.x()};
 }
 
 // What wheels have pushed aside, at a distance from the line: nothing where they run and nothing at

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "sim/left_of.hpp"
+
 namespace lego_loam_sc {
 namespace {
 
@@ -14,9 +16,6 @@ constexpr double kTargetSpacing = 0.25;  // m, well below any corner radius
 
 double cross(const Vector2d& a, const Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
-}
-Vector2d left_of(const Vector2d& a) {
-  return {-a.y(), a.x()};
 }
 
 // A leg (curvature 0) or an arc.

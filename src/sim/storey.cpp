@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "sim/concrete.hpp"
+#include "sim/materials.hpp"
 #include "sim/props.hpp"
 
 namespace lego_loam_sc {
@@ -18,7 +19,7 @@ using Eigen::Vector3d;
 
 constexpr double kBayWidth = 2.5;                      // m
 constexpr double kBumpAlong = 0.4, kBumpAcross = 2.6;  // m; half extents
-constexpr double kAsphalt = 0.2, kRubber = 0.1, kSteel = 0.4, kPaint = 0.7;
+constexpr double kRubber = 0.1, kPaint = 0.7;          // reflectivity
 
 Pose place(double x, double y, double z = 0.0, double yaw_deg = 0.0) {
   return Eigen::Translation3d(x, y, z) * Eigen::AngleAxisd(radians(yaw_deg), Vector3d::UnitZ());

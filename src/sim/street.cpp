@@ -9,6 +9,7 @@
 
 #include "sim/drive.hpp"
 #include "sim/facade.hpp"
+#include "sim/materials.hpp"
 #include "sim/props.hpp"
 #include "sim/random.hpp"
 
@@ -22,10 +23,10 @@ using Eigen::Vector3d;
 // edge of the town.
 constexpr std::array<double, 5> kGridX = {-60.0, 0.0, 160.0, 300.0, 360.0};
 constexpr std::array<double, 5> kGridY = {-60.0, 0.0, 110.0, 230.0, 290.0};
-constexpr double kRoad = 5.0;      // m from the middle of the street to the kerb
-constexpr double kPavement = 2.6;  // m from the kerb to the houses
-constexpr double kKerb = 0.13;     // m
-constexpr double kAsphalt = 0.2, kStone = 0.35, kWallPlaster = 0.5;
+constexpr double kRoad = 5.0;                    // m from the middle of the street to the kerb
+constexpr double kPavement = 2.6;                // m from the kerb to the houses
+constexpr double kKerb = 0.13;                   // m
+constexpr double kStone = 0.35, kPlaster = 0.5;  // reflectivity
 
 Vector2d bend(const Vector2d& p) {
   return {p.x() + 7.0 * std::sin(p.y() / 55.0), p.y() + 9.0 * std::sin(p.x() / 60.0)};
@@ -77,7 +78,7 @@ void add_garden_edge(Mesh& mesh, const Frontage& f, double middle, double length
     add_hedge(mesh, place_of_edge, length, random);
   else
     add_box(mesh, place_of_edge * Eigen::Translation3d(0.0, 0.0, -0.5),
-            {length, 0.25, 0.5 + random.uniform(0.6, 1.8)}, kWallPlaster);
+            {length, 0.25, 0.5 + random.uniform(0.6, 1.8)}, kPlaster);
 }
 
 void add_houses(Mesh& mesh, const Frontage& f, double margin, Random& random) {

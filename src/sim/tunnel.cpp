@@ -7,6 +7,7 @@
 
 #include "sim/arch.hpp"
 #include "sim/drive.hpp"
+#include "sim/materials.hpp"
 #include "sim/random.hpp"
 
 namespace lego_loam_sc {
@@ -18,7 +19,7 @@ constexpr Arch kBore = {.half_width = 2.6, .wall = 2.0, .rise = 2.3};
 constexpr double kNichesEnd = 15.0, kDriveEnd = 315.0;  // m from the start
 constexpr double kBeyond = 250.0;                       // m of bore on either side of the drive
 constexpr double kPiece = 5.0;  // m; triangles that are too slender spoil the ray caster's accuracy
-constexpr double kConcrete = 0.35, kAsphalt = 0.2, kPaint = 0.6, kSteel = 0.4;
+constexpr double kPaint = 0.6;  // reflectivity
 
 // A quadrilateral that two points of the section sweep along x.
 void add_strip(Mesh& mesh, double x0, double x1, const Eigen::Vector2d& a, const Eigen::Vector2d& b,
@@ -95,7 +96,7 @@ Drive make_drive(std::uint64_t seed) {
       .shaking = {.roll_deg = 0.2, .pitch_deg = 0.2, .yaw_deg = 0.1, .z = 0.003},
       .seed = hash(seed, 1)};
   const auto flat = [](double, double) { return 0.0; };
-  return Drive(Route({{0.0, 0.0}, {kDriveEnd, 0.0}}, 1.0), flat, settings);
+  return {Route({{0.0, 0.0}, {kDriveEnd, 0.0}}, 1.0), flat, settings};
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ constexpr WorldKind kKinds[] = {
     {"kitti00", "a city along a route of its own, 3.7 km, or along --route", make_kitti00,
      make_city},
     {"city", "a city along any --route", nullptr, make_city},
-    {"parking", "one storey of a car park, a figure of eight of 260 m", make_car_park},
+    {"parking", "one storey of a car park, a figure of eight of 260 m", make_parking},
     {"parking1", "the paper's scene 1: one storey of a car park, a loop of 180 m", make_parking1},
     {"parking2", "the paper's scene 2: two storeys alike, joined by ramps, a loop of 195 m",
      make_parking2},

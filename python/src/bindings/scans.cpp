@@ -38,7 +38,7 @@ std::int64_t to_stamp(double seconds) {
   if (!(std::abs(seconds) < 9e9))
     throw std::invalid_argument("stamp must be a number of seconds, it is " +
                                 std::to_string(seconds));
-  return std::llround(seconds * 1e9);
+  return nanoseconds(seconds);
 }
 
 std::int32_t to_offset(double seconds) {
@@ -47,7 +47,7 @@ std::int32_t to_offset(double seconds) {
     throw std::invalid_argument(
         "offsets must be seconds after the stamp, between -2 and 2, one is " +
         std::to_string(seconds));
-  return static_cast<std::int32_t>(std::lround(seconds * 1e9));
+  return static_cast<std::int32_t>(nanoseconds(seconds));
 }
 
 std::uint16_t to_ring(std::int64_t ring) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <lego_loam_sc/core/scan.hpp>
+#include <lego_loam_sc/core/time.hpp>
 #include <optional>
 
 #include "arrays.hpp"
@@ -14,9 +15,5 @@ Scan make_scan(const Points& points, double stamp, const std::optional<Numbers<d
                const std::optional<Numbers<float>>& intensity);
 
 std::vector<Eigen::Vector3f> to_points(const Points& points);
-
-constexpr double seconds(std::int64_t nanoseconds) {
-  return 1e-9 * static_cast<double>(nanoseconds);
-}
 
 }  // namespace lego_loam_sc::python
