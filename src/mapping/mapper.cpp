@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mapping/sweep_priors.hpp"
 #include "mapping/thin_out.hpp"
 #include "odometry/correspondence.hpp"
 #include "odometry/deskew.hpp"
@@ -16,8 +17,6 @@ namespace {
 constexpr double kKernelSpreads = 2.0;
 constexpr double kMinScale = 1.0;
 constexpr double kMaxScale = 20.0;
-// A degenerate direction is tied to the guess with this sigma, m or rad.
-constexpr double kTied = 1e-3;
 // The spacing of the matched points, as a share of the setting, in the smallest spaces.
 constexpr double kLeastSpacing = 0.125;
 // The finest voxels come into use when the spacing falls below so many of them, and out of use when
@@ -26,13 +25,6 @@ constexpr double kFineSpacing = 2.5;
 constexpr double kCoarseSpacing = 3.5;
 // The map is searched for voxels out of reach after this share of its radius has been driven.
 constexpr double kEvictionShare = 0.1;
-
-// A sweep that is being matched: its pose, and the change of its velocity since it was de-skewed,
-// both in the map's axes at the reference time.
-struct Sweep {
-  Pose T_map_lidar;
-  Vector6 velocity_change = Vector6::Zero();
-};
 
 using Vector12 = Eigen::Matrix<double, 12, 1>;
 
@@ -64,74 +56,6 @@ void move_on(std::vector<Correspondence>& correspondences, const Vector6& change
   for (Correspondence& c : correspondences)
     c.point += c.age * (change.head<3>() + change.tail<3>().cross(c.point));
 }
-
-// The pose's prior: deviations from the guess cost (delta / sigma)^2 / 2.
-class PosePrior {
- public:
-  PosePrior(const Pose& guess, double sigma_translation, double sigma_rotation) : guess_(guess) {
-    const double t = 1.0 / (sigma_translation * sigma_translation);
-    const double r = 1.0 / (sigma_rotation * sigma_rotation);
-    information_.diagonal() << t, t, t, r, r, r;
-  }
-
-  void tie(const Localizability& l) {
-    constexpr double kInformation = 1.0 / (kTied * kTied);
-    for (int i = 0; i < l.degenerate_translations; ++i)
-      information_.topLeftCorner<3, 3>() +=
-          kInformation * l.translation_axes.col(i) * l.translation_axes.col(i).transpose();
-    for (int i = 0; i < l.degenerate_rotations; ++i)
-      information_.bottomRightCorner<3, 3>() +=
-          kInformation * l.rotation_axes.col(i) * l.rotation_axes.col(i).transpose();
-  }
-
-  void add_to(NormalEquations<12>& equations, const Pose& at) const {
-    Vector6 deviation;
-    deviation << at.translation() - guess_.translation(),
-        log_so3(at.linear() * guess_.linear().transpose());
-    equations.H.topLeftCorner<6, 6>() += information_;
-    equations.g.head<6>() += information_ * deviation;
-    equations.cost += 0.5 * deviation.dot(information_ * deviation);
-  }
-
- private:
-  Pose guess_;
-  Matrix6 information_ = Matrix6::Zero();
-};
-
-// The velocity's prior: it is that of the motion since the previous scan, but for an acceleration.
-class VelocityPrior {
- public:
-  VelocityPrior(const Pose& T_previous_map, double seconds, double acceleration,
-                double angular_acceleration)
-      : T_previous_map_(T_previous_map), seconds_(seconds) {
-    // The mean velocity of the motion is that of half a period ago.
-    const double t = std::max(0.5 * seconds * acceleration, kTied);
-    const double r = std::max(0.5 * seconds * angular_acceleration, kTied);
-    information_ << Eigen::Vector3d::Constant(1.0 / (t * t)),
-        Eigen::Vector3d::Constant(1.0 / (r * r));
-  }
-
-  Vector6 mean(const Pose& T_map_lidar) const {
-    return log_se3(T_previous_map_ * T_map_lidar) / seconds_;
-  }
-
-  // `twist`: that the sweep was de-skewed with.
-  void add_to(NormalEquations<12>& equations, const Sweep& at, const Vector6& twist) const {
-    const Eigen::Matrix3d to_lidar = at.T_map_lidar.linear().transpose();
-    Eigen::Matrix<double, 6, 12> J = Eigen::Matrix<double, 6, 12>::Zero();
-    J.block<3, 3>(0, 6) = J.block<3, 3>(3, 9) = to_lidar;
-    J.leftCols<6>() = J.rightCols<6>() * (-1.0 / seconds_);
-    const Vector6 e = twist + J.rightCols<6>() * at.velocity_change - mean(at.T_map_lidar);
-    equations.H += J.transpose() * information_.asDiagonal() * J;
-    equations.g += J.transpose() * (information_.cwiseProduct(e));
-    equations.cost += 0.5 * e.dot(information_.cwiseProduct(e));
-  }
-
- private:
-  Pose T_previous_map_;
-  double seconds_;
-  Vector6 information_;
-};
 
 // In directions that the map does not hold the odometry has matched noise with noise, which stands
 // still: there the last motion goes on instead.
