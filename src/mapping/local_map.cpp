@@ -128,7 +128,7 @@ std::vector<Correspondence> LocalMap::match(const Features& features, const Pose
   return correspondences;
 }
 
-bool LocalMap::occupied(const Eigen::Vector3d& point) {
+bool LocalMap::occupied(const Eigen::Vector3d& point) const {
   return planes_.front().occupied(point) || lines_.front().occupied(point) ||
          scattered_.front().occupied(point);
 }

@@ -26,8 +26,9 @@ struct MatchedSurfaces {
   std::vector<Entry> planes, lines, scattered;
 };
 
-/// The surroundings as planes and lines: one surface map of planar and one of edge features for
-/// each of several voxel sizes. Serves the mapper and the verifier of loops.
+/// The surroundings as planes, lines and places: a surface map of the planar features, one of the
+/// edges and one of the scattered points for each of several voxel sizes. Serves the mapper and the
+/// verifier of loops.
 class LocalMap {
  public:
   /// The finest voxels measure `voxel_size` (m), each of the `levels` twice the one before. Where
@@ -47,7 +48,7 @@ class LocalMap {
                                     MatchedSurfaces& last);
 
   /// True when a point lies in the finest voxel of `point` (map frame).
-  bool occupied(const Eigen::Vector3d& point);
+  bool occupied(const Eigen::Vector3d& point) const;
 
   void remove_beyond(const Eigen::Vector3d& center, double radius);
   void clear();

@@ -40,17 +40,17 @@ void SurfaceMap::insert(std::span<const Eigen::Vector3d> points, std::span<const
   // The table is larger than the caches: each voxel is fetched some points ahead, in two steps.
   constexpr std::size_t kAhead = 16;
   std::array<std::optional<Cell>, kAhead> ahead;
-  const auto planned = [&](std::size_t i) -> std::optional<Cell>& { return ahead[i % kAhead]; };
   for (std::size_t next = 0; next < points.size() + kAhead; ++next) {
-    if (next >= kAhead && planned(next)) {
+    std::optional<Cell>& cell = ahead[next % kAhead];
+    if (next >= kAhead && cell) {
       const std::size_t i = next - kAhead;
-      add(points[i], ranges.empty() ? 0.0 : ranges[i], *planned(i));
+      add(points[i], ranges.empty() ? 0.0 : ranges[i], *cell);
     }
-    planned(next).reset();
-    if (next < points.size()) planned(next) = cell_of(points[next] / settings_.voxel_size);
-    if (planned(next)) voxels_.prefetch(pack_cell(*planned(next)));
-    const std::size_t half = next + kAhead / 2;  // the same place as half the distance ago
-    if (planned(half)) voxels_.prefetch_value(pack_cell(*planned(half)));
+    cell.reset();
+    if (next < points.size()) cell = cell_of(points[next] / settings_.voxel_size);
+    if (cell) voxels_.prefetch(pack_cell(*cell));
+    const std::optional<Cell>& half_way = ahead[(next + kAhead / 2) % kAhead];
+    if (half_way) voxels_.prefetch_value(pack_cell(*half_way));
   }
   ++revision_;
 }
@@ -73,17 +73,17 @@ VoxelKey SurfaceMap::block_of(const Eigen::Vector3d& point) const {
   return key_of((point / settings_.voxel_size).array() - 0.5).value_or(kNoBlock);
 }
 
-Surface SurfaceMap::surface_of(VoxelKey key) {
-  if (key == kNoBlock) return {};
-  const Cell corner = unpack_cell(key);
-  Block& block = blocks_.find_or_insert(key).first;
-  if (revision_ >= block.due) look_again(block, corner);
+Surface SurfaceMap::surface_of(VoxelKey block) {
+  if (block == kNoBlock) return {};
+  const Cell corner = unpack_cell(block);
+  Block& kept = blocks_.find_or_insert(block).first;
+  if (revision_ >= kept.due) look_again(kept, corner);
   Surface surface;
-  surface.kind = block.kind;
-  surface.mean = corner_of(corner, 1.0) + block.mean.cast<double>();
-  surface.direction = block.direction.cast<double>();
-  surface.variance = block.variance;
-  surface.range = block.range;
+  surface.kind = kept.kind;
+  surface.mean = corner_of(corner, 1.0) + kept.mean.cast<double>();
+  surface.direction = kept.direction.cast<double>();
+  surface.variance = kept.variance;
+  surface.range = kept.range;
   return surface;
 }
 
@@ -155,7 +155,7 @@ void SurfaceMap::fit(const std::array<const Voxel*, 8>& voxels, std::uint32_t co
   }
 }
 
-bool SurfaceMap::occupied(const Eigen::Vector3d& point) {
+bool SurfaceMap::occupied(const Eigen::Vector3d& point) const {
   const auto key = key_of(point / settings_.voxel_size);
   return key && voxels_.find(*key);
 }

@@ -28,7 +28,7 @@ struct SurfaceMapSettings {
   double planarity = 0.1;                     ///< largest ratio of the eigenvalues, see surface_of
 };
 
-/// No block of any map: the corners of the grid stay free, see voxel_table.hpp.
+/// No block of any map: the outermost cells of the grid stay free, see voxel_table.hpp.
 constexpr VoxelKey kNoBlock = pack_cell(-kMaxCell, -kMaxCell, -kMaxCell);
 
 /// An incremental voxel map of surfaces. Each voxel keeps the count, sum and sum of squares of all
@@ -59,7 +59,7 @@ class SurfaceMap {
   void prefetch_value(VoxelKey block) const { blocks_.prefetch_value(block); }
 
   /// True when the voxel of `point` holds points.
-  bool occupied(const Eigen::Vector3d& point);
+  bool occupied(const Eigen::Vector3d& point) const;
 
   /// Forgets voxels farther than `radius` (m) from `center`.
   void remove_beyond(const Eigen::Vector3d& center, double radius);
@@ -103,7 +103,7 @@ class SurfaceMap {
 
   void add(const Eigen::Vector3d& point, double range, const Cell& cell);
   Eigen::Vector3d corner_of(const Cell& cell, double cells) const;
-  /// `variance`: along the axes of a block's points, ascending, m^2.
+  // `variance`: along the axes of a block's points, ascending, m^2.
   Surface::Kind kind_of(const Eigen::Vector3d& variance, std::uint32_t count) const;
   void look_again(Block& block, const Cell& corner);
   void fit(const std::array<const Voxel*, 8>& voxels, std::uint32_t count, Block& block) const;

@@ -39,9 +39,9 @@ std::vector<Point> voxel_filter(const std::vector<Point>& points, double size,
     ++left[voxel.number];
   }
   for (std::uint32_t number = 0; number < left.size(); ++number) {
-    constexpr std::uint32_t kGolden = 2654435769u;  // spreads the numbers evenly over 32 bits
-    left[number] =
-        1 + static_cast<std::uint32_t>(std::uint64_t{number * kGolden} * left[number] >> 32);
+    // The golden ratio spreads the numbers evenly over 32 bits, in which the product wraps round.
+    const std::uint32_t share = number * 2654435769u;
+    left[number] = 1 + static_cast<std::uint32_t>(std::uint64_t{share} * left[number] >> 32);
   }
   std::vector<Point> kept;
   kept.reserve(left.size());

@@ -75,7 +75,8 @@ class VoxelTable {
     values_.reserve(count);
   }
 
-  Value* find(VoxelKey key) {
+  /// The value of the cell, or null.
+  const Value* find(VoxelKey key) const {
     if (slots_.empty()) return nullptr;
     for (std::size_t s = first_slot(key);; s = (s + 1) & mask()) {
       if (slots_[s].index == kEmpty) return nullptr;

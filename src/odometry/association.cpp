@@ -28,7 +28,7 @@ std::optional<Plane> fit_plane(const std::vector<Eigen::Vector3f>& points) {
     sum += d;
     square += d * d.transpose();
   }
-  const double count = static_cast<double>(points.size());
+  const auto count = static_cast<double>(points.size());
   const Eigen::Vector3d mean = sum / count;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
   eigen.computeDirect(square / count - mean * mean.transpose());
@@ -57,7 +57,7 @@ std::vector<Correspondence> associate_edges(const std::vector<FeaturePoint>& edg
                                             const FeatureIndex& previous,
                                             const Pose& T_previous_current,
                                             const OdometrySettings& settings, double range_noise) {
-  const float max_distance = static_cast<float>(settings.max_distance);
+  const auto max_distance = static_cast<float>(settings.max_distance);
   const double weight = 1.0 / (range_noise * range_noise);
   std::vector<Correspondence> result;
   result.reserve(edges.size());
@@ -71,7 +71,7 @@ std::vector<Correspondence> associate_edges(const std::vector<FeaturePoint>& edg
     float reach = max_distance;
     for (int gap = 1; gap <= settings.max_row_gap; ++gap) {
       for (const int row : {first.row - gap, first.row + gap}) {
-        const int other = previous.nearest_in_row(moved, row, reach, -1);
+        const int other = previous.nearest_in_row(moved, row, reach);
         if (other < 0) continue;
         b = other;
         reach = (previous.points()[other].position - moved).norm();
@@ -92,7 +92,7 @@ std::vector<Correspondence> associate_planars(const std::vector<FeaturePoint>& p
                                               const Pose& T_previous_current,
                                               const OdometrySettings& settings,
                                               double range_noise) {
-  const float max_distance = static_cast<float>(settings.max_distance);
+  const auto max_distance = static_cast<float>(settings.max_distance);
   std::vector<Correspondence> result;
   result.reserve(planars.size());
   std::vector<Eigen::Vector3f> support;
@@ -107,7 +107,7 @@ std::vector<Correspondence> associate_planars(const std::vector<FeaturePoint>& p
     const std::size_t on_row = support.size();
     for (const int direction : {-1, 1}) {
       for (int gap = 1; gap <= settings.max_row_gap; ++gap) {
-        const int other = previous.nearest_in_row(moved, row + direction * gap, max_distance, -1);
+        const int other = previous.nearest_in_row(moved, row + direction * gap, max_distance);
         if (other < 0) continue;
         add_row_neighbours(previous, other, max_distance, support);
         break;

@@ -59,11 +59,9 @@ NormalEquations<12> sweep_normal_equations(std::span<const Correspondence> corre
 template <std::size_t N>
 NormalEquations<N> restrict_to(const NormalEquations<6>& all, const std::array<int, N>& unknowns) {
   NormalEquations<N> some;
+  some.H = all.H(unknowns, unknowns);
+  some.g = all.g(unknowns);
   some.cost = all.cost;
-  for (std::size_t i = 0; i < N; ++i) {
-    some.g[i] = all.g[unknowns[i]];
-    for (std::size_t j = 0; j < N; ++j) some.H(i, j) = all.H(unknowns[i], unknowns[j]);
-  }
   return some;
 }
 

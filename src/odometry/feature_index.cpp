@@ -80,8 +80,7 @@ int FeatureIndex::nearest(const Eigen::Vector3f& query, float max_distance) cons
   return squared <= max_distance * max_distance ? static_cast<int>(index) : -1;
 }
 
-int FeatureIndex::nearest_in_row(const Eigen::Vector3f& query, int row, float max_distance,
-                                 int excluded) const {
+int FeatureIndex::nearest_in_row(const Eigen::Vector3f& query, int row, float max_distance) const {
   if (row < 0 || row + 1 >= static_cast<int>(impl_->row_begin.size())) return -1;
   const RowEntry* begin = impl_->entries.data() + impl_->row_begin[row];
   const int count = impl_->row_begin[row + 1] - impl_->row_begin[row];
@@ -96,9 +95,9 @@ int FeatureIndex::nearest_in_row(const Eigen::Vector3f& query, int row, float ma
   int best = -1;
   float best_squared = max_distance * max_distance;
   const auto visit = [&](int position) {
-    const RowEntry& entry = begin[position < 0       ? position + count
-                                  : position < count ? position
-                                                     : position - count];
+    if (position < 0) position += count;
+    if (position >= count) position -= count;
+    const RowEntry& entry = begin[position];
     float turn = std::abs(entry.azimuth - azimuth);
     if (turn > std::numbers::pi_v<float>) turn = 2.0f * std::numbers::pi_v<float> - turn;
     if (turn < 0.5f * std::numbers::pi_v<float>) {
@@ -110,8 +109,7 @@ int FeatureIndex::nearest_in_row(const Eigen::Vector3f& query, int row, float ma
       return false;
     }
     const float squared = (points()[entry.index].position - query).squaredNorm();
-    const bool nearer = squared < best_squared || (squared == best_squared && entry.index < best);
-    if (entry.index != excluded && nearer) {
+    if (squared < best_squared || (squared == best_squared && entry.index < best)) {
       best = entry.index;
       best_squared = squared;
     }

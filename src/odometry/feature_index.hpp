@@ -23,8 +23,8 @@ class FeatureIndex {
   /// Index of the point nearest to `query` within `max_distance` (m), or -1.
   int nearest(const Eigen::Vector3f& query, float max_distance) const;
 
-  /// The same among the points of one row, without the point `excluded` (-1 for none).
-  int nearest_in_row(const Eigen::Vector3f& query, int row, float max_distance, int excluded) const;
+  /// The same among the points of one row.
+  int nearest_in_row(const Eigen::Vector3f& query, int row, float max_distance) const;
 
  private:
   struct Impl;

@@ -2,6 +2,7 @@
 #include "odometry/odometry.hpp"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 
 #include "odometry/association.hpp"
@@ -39,7 +40,7 @@ LevenbergMarquardtResult solve(std::span<const Correspondence> correspondences,
       },
       [&](const Pose& at, const Eigen::Matrix<double, N, 1>& step) {
         Vector6 delta = Vector6::Zero();
-        for (std::size_t i = 0; i < N; ++i) delta[unknowns[i]] = step[i];
+        delta(unknowns) = step;
         return perturb(at, delta);
       });
 }
@@ -74,22 +75,20 @@ Pose keep_guess_where_degenerate(const Pose& solved, const Pose& guess, const Lo
 
 // At most `count` of the points, at equal steps.
 std::vector<FeaturePoint> evenly(const std::vector<FeaturePoint>& points, int count) {
-  const std::size_t wanted = static_cast<std::size_t>(count);
+  const auto wanted = static_cast<std::size_t>(count);
   if (points.size() <= wanted) return points;
   std::vector<FeaturePoint> taken(wanted);
   for (std::size_t i = 0; i < wanted; ++i) taken[i] = points[i * points.size() / wanted];
   return taken;
 }
 
-bool all_ground(const std::vector<FeaturePoint>& points) {
-  return std::all_of(points.begin(), points.end(),
-                     [](const FeaturePoint& p) { return p.label == Label::ground; });
+bool is_ground(const FeaturePoint& point) {
+  return point.label == Label::ground;
 }
 
 std::vector<FeaturePoint> ground_of(const std::vector<FeaturePoint>& points) {
   std::vector<FeaturePoint> ground;
-  std::copy_if(points.begin(), points.end(), std::back_inserter(ground),
-               [](const FeaturePoint& p) { return p.label == Label::ground; });
+  std::copy_if(points.begin(), points.end(), std::back_inserter(ground), is_ground);
   return ground;
 }
 
@@ -108,27 +107,27 @@ Odometry::Odometry(const OdometrySettings& settings, double range_noise)
     : settings_(settings), range_noise_(std::max(range_noise, 1e-3)) {}
 
 void Odometry::set_previous(const Features& deskewed) {
-  edges_.emplace(deskewed.edges_large);
-  ground_.emplace(ground_of(deskewed.planars_large));
-  planars_ = deskewed.planars_large;
+  previous_ = Previous{FeatureIndex(deskewed.edges_large),
+                       FeatureIndex(ground_of(deskewed.planars_large)), deskewed.planars_large};
 }
 
 Motion Odometry::estimate(const Features& features, const Pose& guess, double seconds) const {
   Motion motion;
   motion.T_previous_current = guess;
-  if (!has_previous()) return motion;
+  if (!previous_) return motion;
+  const Previous& previous = *previous_;
 
   const std::vector<FeaturePoint> edges = evenly(features.edges_sharp, settings_.max_points);
   const std::vector<FeaturePoint> planars = evenly(features.planars_flat, settings_.max_points);
   // The points of a sweep are moved to its middle with the motion as estimated so far.
   const auto edges_at = [&](const Pose& pose) {
-    return associate_edges(deskew(edges, log_se3(pose) / seconds), *edges_, pose, settings_,
+    return associate_edges(deskew(edges, log_se3(pose) / seconds), previous.edges, pose, settings_,
                            range_noise_);
   };
-  const bool on_ground = all_ground(planars);
+  const bool on_ground = std::all_of(planars.begin(), planars.end(), is_ground);
   std::optional<FeatureIndex> everywhere;
-  if (!on_ground) everywhere.emplace(planars_);
-  const FeatureIndex& previous_planars = on_ground ? *ground_ : *everywhere;
+  if (!on_ground) everywhere.emplace(previous.planars);
+  const FeatureIndex& previous_planars = everywhere ? *everywhere : previous.ground;
   const auto planars_at = [&](const Pose& pose) {
     return associate_planars(deskew(planars, log_se3(pose) / seconds), previous_planars, pose,
                              settings_, range_noise_);

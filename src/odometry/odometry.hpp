@@ -39,25 +39,32 @@ class Odometry {
   /// Makes `deskewed` the scan that the next one is matched with.
   void set_previous(const Features& deskewed);
 
-  bool has_previous() const { return edges_.has_value(); }
+  bool has_previous() const { return previous_.has_value(); }
 
   /// See core/state_archive.hpp.
   template <class Archive>
   void state(Archive& archive) {
     bool has = has_previous();
     Features previous;
-    if (has) previous.edges_large = edges_->points();
-    previous.planars_large = planars_;
+    if (has) {
+      previous.edges_large = previous_->edges.points();
+      previous.planars_large = previous_->planars;
+    }
     archive(has, previous.edges_large, previous.planars_large);
     if (Archive::kReads && has) set_previous(previous);
   }
 
  private:
+  // The large sets of the previous scan, de-skewed.
+  struct Previous {
+    FeatureIndex edges;
+    FeatureIndex ground;                // the planar points that are
+    std::vector<FeaturePoint> planars;  // ground and all else
+  };
+
   OdometrySettings settings_;
   double range_noise_;
-  std::optional<FeatureIndex> edges_;
-  std::optional<FeatureIndex> ground_;
-  std::vector<FeaturePoint> planars_;  // ground and all else
+  std::optional<Previous> previous_;
 };
 
 }  // namespace lego_loam_sc

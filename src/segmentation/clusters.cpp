@@ -154,9 +154,9 @@ struct Extent {
 
 }  // namespace
 
-int cluster(const RangeImage& image, const SensorModel& sensor,
-            const SegmentationSettings& settings, std::vector<Label>& label,
-            std::vector<std::int32_t>& cluster) {
+int mark_clusters(const RangeImage& image, const SensorModel& sensor,
+                  const SegmentationSettings& settings, std::vector<Label>& label,
+                  std::vector<std::int32_t>& cluster) {
   const double limit_tangent = std::tan(radians(settings.cluster_angle_deg));
   const double slack = 3.0 * sensor.range_noise;
   const SameInRow same_in_row(image.columns, limit_tangent, slack);

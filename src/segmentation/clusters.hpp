@@ -15,8 +15,8 @@ namespace lego_loam_sc {
 /// object when the line through them makes an angle beta above the limit with the farther beam
 /// (Bogoslavskyi and Stachniss, 2016). Sets `segment` on the points of clusters that are large
 /// enough, or thin and tall, and their number in `cluster`; returns the count of such clusters.
-int cluster(const RangeImage& image, const SensorModel& sensor,
-            const SegmentationSettings& settings, std::vector<Label>& label,
-            std::vector<std::int32_t>& cluster);
+int mark_clusters(const RangeImage& image, const SensorModel& sensor,
+                  const SegmentationSettings& settings, std::vector<Label>& label,
+                  std::vector<std::int32_t>& cluster);
 
 }  // namespace lego_loam_sc

@@ -48,7 +48,7 @@ std::vector<Vector3d> points_near(const RangeImage& image) {
 
 // Counts the points on the plane; none when too many lie beyond it. A plane that only cuts through
 // walls has as many beside it, layer for layer: these are taken off.
-void support(Plane& plane, const std::vector<Vector3d>& points) {
+void count_support(Plane& plane, const std::vector<Vector3d>& points) {
   std::size_t on = 0, beside = 0, beyond = 0;
   for (const Vector3d& p : points) {
     const double above = plane.up.dot(p) + plane.height;
@@ -90,7 +90,7 @@ Plane refined(Plane plane, const std::vector<Vector3d>& points) {
   const Vector3d normal = solver.eigenvectors().col(0);
   plane.up = normal.dot(plane.up) > 0.0 ? normal : Vector3d(-normal);
   plane.height = -plane.up.dot(mean);
-  support(plane, points);
+  count_support(plane, points);
   return plane;
 }
 
@@ -112,7 +112,7 @@ Grounds find_grounds(const std::vector<Vector3d>& points) {
     const Vector3d &a = any(), &b = any(), &c = any();
     std::optional<Plane> plane = plane_through(a, b, c);
     if (!plane || std::abs(plane->up.z()) < least_tilted) continue;
-    support(*plane, points);
+    count_support(*plane, points);
     if (plane->up.z() < 0.0)
       keep_better(grounds.above, *plane);
     else

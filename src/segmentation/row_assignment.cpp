@@ -26,7 +26,7 @@ Groups groups_of_ring_field(const Scan& scan) {
   Groups groups;
   groups.of_point.assign(scan.size(), -1);
   for (std::size_t i = 0; i < scan.size(); ++i) {
-    if (scan.ring[i] >= 4096) continue;  // no spinning sensor has so many; a broken field
+    if (scan.ring[i] >= kMostRings) continue;  // a broken field
     groups.of_point[i] = static_cast<std::int16_t>(scan.ring[i]);
     groups.count = std::max(groups.count, scan.ring[i] + 1);
   }

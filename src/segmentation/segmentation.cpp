@@ -20,7 +20,7 @@ Segmentation segment(const RangeImage& image, const SensorModel& sensor, double 
   }
   result.label.assign(image.size(), Label::outlier);
   mark_ground(image, sensor, sensor_height, settings, result.label);
-  result.clusters = cluster(image, sensor, settings, result.label, result.cluster);
+  result.clusters = mark_clusters(image, sensor, settings, result.label, result.cluster);
   result.ground_points = std::count(result.label.begin(), result.label.end(), Label::ground);
   result.segment_points = std::count(result.label.begin(), result.label.end(), Label::segment);
   return result;

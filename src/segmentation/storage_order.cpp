@@ -5,7 +5,6 @@ namespace lego_loam_sc {
 
 std::vector<std::int16_t> rings_of_storage_order(const Scan& scan,
                                                  const std::vector<std::uint8_t>& usable) {
-  constexpr int kMostRings = 4096;
   std::vector<std::int16_t> ring_of_point(scan.size(), -1);
   bool previous_in_fourth = false;
   bool passed_rear = false;  // else jitter round zero would start rings
