@@ -13,6 +13,8 @@
 #include <lego_loam_sc/io/trajectory.hpp>
 #include <lego_loam_sc/slam/map_cloud.hpp>
 #include <lego_loam_sc/slam/slam.hpp>
+#include <optional>
+#include <stdexcept>
 
 using namespace lego_loam_sc;
 

@@ -11,6 +11,8 @@
 #include <lego_loam_sc/io/recognise_sensor.hpp>
 #include <lego_loam_sc/io/scan_source.hpp>
 #include <lego_loam_sc/slam/slam.hpp>
+#include <optional>
+#include <stdexcept>
 
 using namespace lego_loam_sc;
 

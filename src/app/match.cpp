@@ -21,12 +21,12 @@ struct Options {
   bool json = false;
 };
 
-struct NamedScan {
+struct ScanWithFacts {
   Scan scan;
   DatasetFacts facts;
 };
 
-NamedScan only_scan(const std::string& path) {
+ScanWithFacts only_scan(const std::string& path) {
   const std::unique_ptr<ScanSource> source = open_scans(path);
   std::optional<Scan> scan = source->next();
   if (!scan) throw InputError(path + ": there is no scan in it; give one scan");
@@ -75,8 +75,8 @@ void add_match(CLI::App& app) {
   command->callback([options] {
     const CommonOptions& common = options->common;
     const Settings settings = load_settings(common.method, common.config, common.assignments);
-    const NamedScan a = only_scan(options->a);
-    const NamedScan b = only_scan(options->b);
+    const ScanWithFacts a = only_scan(options->a);
+    const ScanWithFacts b = only_scan(options->b);
     const SensorModel sensor = choose_sensor(common.sensor, a.scan, a.facts);
     const ScanMatch match = match_scans(a.scan, b.scan, sensor, settings);
     if (options->json) {
