@@ -20,13 +20,6 @@ namespace fs = std::filesystem;
 
 const std::string kSimulate = simulate_line(3);
 
-std::set<std::string> names_in(const fs::path& folder) {
-  std::set<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder))
-    names.insert(entry.path().filename().string());
-  return names;
-}
-
 // The lines that inspect prints, by their first word.
 std::map<std::string, std::string> facts_of(const std::string& text) {
   std::map<std::string, std::string> facts;

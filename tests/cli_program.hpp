@@ -8,6 +8,7 @@
 #include <fstream>
 #include <initializer_list>
 #include <iterator>
+#include <set>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -32,6 +33,13 @@ inline std::vector<std::string> split(const std::string& text, char separator) {
 
 inline std::vector<std::string> lines_of(const std::filesystem::path& path) {
   return split(read_text(path), '\n');
+}
+
+inline std::set<std::string> names_in(const std::filesystem::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    names.insert(entry.path().filename().string());
+  return names;
 }
 
 /// What a command did.

@@ -28,13 +28,6 @@ const std::string kSimulate = simulate_line(12);
 const std::string kLongSimulate = simulate_line(60);
 const std::string kLoopyRun = "$P run scans --set loop.min_travel=2 --set loop.spacing=0.5";
 
-std::set<std::string> names_in(const fs::path& folder) {
-  std::set<std::string> names;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-    names.insert(entry.path().filename().string());
-  return names;
-}
-
 // The columns of scans.csv that are the same in every run, and summary.json without its times.
 std::string without_times(const fs::path& file) {
   if (file.filename() == "scans.csv") {

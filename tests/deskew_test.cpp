@@ -26,7 +26,7 @@ TEST(Deskew, TheSweepMotionIsTheExactMotion) {
     const SweepMotion motion(twist, 0.05f);
     for (int k = 0; k < 20; ++k) {
       const Vector3d point(30.0 * one(random), 30.0 * one(random), 5.0 * one(random));
-      const float age = static_cast<float>(0.05 * one(random));
+      const auto age = static_cast<float>(0.05 * one(random));
       const Vector3d exact = exp_se3(twist * static_cast<double>(age)) * point;
       EXPECT_LT((motion(point.cast<float>(), age).cast<double>() - exact).norm(), 1e-4);
     }

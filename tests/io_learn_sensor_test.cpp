@@ -12,6 +12,7 @@
 #include "io/sensor_yaml.hpp"
 #include "io_test_files.hpp"
 #include "made_scenes.hpp"
+#include "preset_name.hpp"
 
 namespace lego_loam_sc {
 namespace {
@@ -51,13 +52,7 @@ TEST_P(LearnSensor, FindsThePresetBehindScansWithAndWithoutRings) {
   expect_beams(learn_sensor(scans).sensor, truth);
 }
 
-std::string test_name(const testing::TestParamInfo<std::string>& info) {
-  std::string name = info.param;
-  std::erase(name, '-');
-  return name;
-}
-
-INSTANTIATE_TEST_SUITE_P(All, LearnSensor, testing::ValuesIn(preset_names("sensors")), test_name);
+INSTANTIATE_TEST_SUITE_P(All, LearnSensor, testing::ValuesIn(preset_names("sensors")), preset_name);
 
 bool has_note(const LearnedSensor& learned, const std::string& words) {
   for (const std::string& note : learned.notes)

@@ -23,7 +23,7 @@ std::vector<PackedPoint> some_points(int count, float x) {
 }
 
 KeyFrame made(int k) {
-  const float x = static_cast<float>(k);
+  const auto x = static_cast<float>(k);
   return {100 * k,
           0.5 * k,
           some_points(3 + k, x),

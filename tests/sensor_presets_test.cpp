@@ -6,6 +6,7 @@
 #include "io/preset_text.hpp"
 #include "io/sensor_yaml.hpp"
 #include "made_scenes.hpp"
+#include "preset_name.hpp"
 
 namespace lego_loam_sc {
 namespace {
@@ -51,13 +52,8 @@ TEST_P(SensorPreset, ItsScansGoThroughTheFrontEndWithTheRightRows) {
   }
 }
 
-std::string test_name(const testing::TestParamInfo<std::string>& info) {
-  std::string name = info.param;
-  std::erase(name, '-');
-  return name;
-}
-
-INSTANTIATE_TEST_SUITE_P(All, SensorPreset, testing::ValuesIn(preset_names("sensors")), test_name);
+INSTANTIATE_TEST_SUITE_P(All, SensorPreset, testing::ValuesIn(preset_names("sensors")),
+                         preset_name);
 
 }  // namespace
 }  // namespace lego_loam_sc
