@@ -79,7 +79,7 @@ void PoseGraph::Solver::add_loop(const PoseEdge& loop) {
   if (settings_.loop_kernel > 0.0)
     model = noise::Robust::Create(noise::mEstimator::Huber::Create(kernel_of(loop)), model);
   loops.push_back(loop);
-  loop_factors_.push_back(boost::make_shared<RelativePoseFactor>(
+  loop_factors_.emplace_back(boost::make_shared<RelativePoseFactor>(
       loop.from, loop.to, to_gtsam(loop.T_from_to), Vector6::Zero(), model));
   changed_ = true;
 }

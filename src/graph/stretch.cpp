@@ -6,7 +6,7 @@ namespace lego_loam_sc {
 using gtsam::Pose3;
 
 Pose3 to_gtsam(const Pose& pose) {
-  return Pose3(pose.matrix());
+  return {pose.matrix()};
 }
 
 Matrix6 swap_blocks(const Matrix6& covariance) {
