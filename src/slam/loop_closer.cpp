@@ -23,8 +23,8 @@ constexpr double kContradiction = 7.0;
 // day would let the graph grow without end.
 constexpr double kNothingNew = 0.5;
 constexpr double kSameVisit = 20.0;
-// With each of them, and each search whose candidates were all refused, the pause before the next
-// doubles, up to this, m.
+// With each of them the pause before the next search doubles, up to this, m, and to twice as much
+// where many loops end.
 constexpr double kLongestPause = 0.3 * kSameVisit;
 // Until so far after a loop, m, the pose graph knows where it is: then a place that another visit
 // has been as near to as this, m, is known.
@@ -39,6 +39,9 @@ constexpr int kGlanceLevels = 2;
 constexpr int kWellTied = 5;
 constexpr double kPlace = 50.0;
 constexpr double kDisagreement = 2.5;
+// Loops that agree wait for each other until they are this share of all, and move the poses
+// together.
+constexpr double kWaitingShare = 1.0 / 32.0;
 // Between two maps there is no pose graph to contradict a candidate. So more of them are tried, and
 // more must agree: the overlap of a loop that joins them.
 constexpr std::size_t kJoinCandidates = 3;
@@ -234,11 +237,24 @@ bool LoopCloser::tells_nothing_new(const PoseEdge& loop, double travelled,
   return (same_visit && chi < kNothingNew) || (chi < kDisagreement && well_tied(loop.from, graph));
 }
 
+// False when the others contradict the loop, which is taken out again.
+bool LoopCloser::add_to(PoseGraph& graph, const PoseEdge& loop, bool joins) {
+  const bool agrees = !joins && graph.chi(loop) < kDisagreement;
+  graph.add_loop(loop);
+  const std::size_t loops = graph.loop_edges().size();
+  if (agrees && ++waiting_ <= kWaitingShare * static_cast<double>(loops)) return true;
+  waiting_ = 0;
+  graph.optimise();
+  if (graph.loop_chi(loops - 1) <= kContradiction) return true;
+  graph.remove_loop(loops - 1);
+  graph.optimise();
+  return false;
+}
+
 std::vector<LoopReport> LoopCloser::find(const KeyFrames& key_frames, int eligible,
                                          const ScanContext& context, Pieces& pieces,
                                          PoseGraph& graph) {
   std::vector<LoopReport> reports;
-  const double longer = std::max(pause_, std::min(2.0 * pause_, kLongestPause));
   const double now = key_frames.travelled(key_frames.size() - 1);
   const bool pauses = now < next_search_travelled_;
   if (pauses && pieces.maps() == 1) return reports;
@@ -256,19 +272,14 @@ std::vector<LoopReport> LoopCloser::find(const KeyFrames& key_frames, int eligib
     };
     const bool expected = !joins && now - last_loop_travelled_ < kTrusted;
     if ((expected && nothing_new(Effort::glance)) || nothing_new(Effort::full)) {
+      const double longest = (well_tied(candidate.match, graph) ? 2.0 : 1.0) * kLongestPause;
       last_loop_travelled_ = now;
-      pause(now, longer);
+      pause(now, std::max(settings_.spacing, std::min(2.0 * pause_, longest)));
       return reports;
     }
     if (verification.verdict != Verdict::accepted) continue;
-    report.added = true;
-    graph.add_loop(edge_of(report));
-    graph.optimise();
-    const std::size_t added = graph.loop_edges().size() - 1;
-    if (graph.loop_chi(added) > kContradiction) {
-      graph.remove_loop(added);
-      graph.optimise();
-      report.added = false;
+    report.added = add_to(graph, edge_of(report), joins);
+    if (!report.added) {
       verification.verdict = Verdict::contradicted;
       continue;
     }

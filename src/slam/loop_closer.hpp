@@ -26,8 +26,8 @@ class LoopCloser {
 
   /// Looks for loops that end at the newest key frame, which `context` describes, and adds accepted
   /// ones to the graph, which may join pieces. The graph is optimised, and a loop that the others
-  /// contradict is taken out again. Call once for each key frame. Returns every candidate that was
-  /// verified.
+  /// contradict is taken out again; in a graph of many loops one that agrees waits for a few more.
+  /// Call once for each key frame. Returns every candidate that was verified.
   std::vector<LoopReport> close(const KeyFrames& key_frames, ScanContext context, Pieces& pieces,
                                 PoseGraph& graph);
 
@@ -37,7 +37,7 @@ class LoopCloser {
   /// See core/state_archive.hpp.
   template <class Archive>
   void state(Archive& archive) {
-    archive(contexts_, last_loop_travelled_, next_search_travelled_, pause_);
+    archive(contexts_, last_loop_travelled_, next_search_travelled_, pause_, waiting_);
   }
 
  private:
@@ -56,6 +56,7 @@ class LoopCloser {
   bool place_is_known(double travelled, int eligible, const PoseGraph& graph) const;
   PoseEdge edge_of(const LoopReport& report) const;
   bool tells_nothing_new(const PoseEdge& loop, double travelled, const PoseGraph& graph) const;
+  bool add_to(PoseGraph& graph, const PoseEdge& loop, bool joins);
   void pause(double travelled, double metres);
 
   LoopSettings settings_;
@@ -65,7 +66,8 @@ class LoopCloser {
   ScanContextIndex contexts_;
   double last_loop_travelled_ = -1e9;  // m along the path
   double next_search_travelled_ = 0.0;
-  double pause_;  // m
+  double pause_;     // m
+  int waiting_ = 0;  // loops in the graph that it was not optimised for
 };
 
 }  // namespace lego_loam_sc

@@ -53,7 +53,7 @@ struct ScanReport {
   int piece = 0;       ///< of the drive, from 0; see Pieces
   int key_frame = -1;  ///< its number when the scan is one
   std::vector<LoopReport> loops;
-  bool corrected = false;  ///< a loop moved the poses
+  bool corrected = false;  ///< a loop came into the pose graph
 
   std::array<double, kStages> milliseconds{};  ///< wall time by stage
 };

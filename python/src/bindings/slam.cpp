@@ -97,7 +97,7 @@ void bind_reports(nb::module_& module) {
       .def_ro("piece", &R::piece, "of the drive, from 0; a new one begins where the way was lost")
       .def_ro("key_frame", &R::key_frame, "its number when the scan is one, else -1")
       .def_ro("loops", &R::loops, "every candidate that was verified")
-      .def_ro("corrected", &R::corrected, "a loop moved the poses");
+      .def_ro("corrected", &R::corrected, "a loop came into the pose graph");
 }
 
 void bind_loop_edge(nb::module_& module) {
