@@ -35,6 +35,7 @@ void CondensedChain::condense_moved(const std::vector<PoseEdge>& odometry) {
       links_[i] = linearised(odometry[i], relatives_[i]);
     stretch = condense(links_, stretch.from, stretch.to);
     section.moved = 0.0;
+    section.expanded_to.reset();
     section.factor = boost::make_shared<RelativePoseFactor>(
         stretch.from, stretch.to, stretch.relative, stretch.offset,
         gtsam::noiseModel::Gaussian::Covariance(stretch.spread));
@@ -46,6 +47,8 @@ void CondensedChain::expand(const gtsam::Values& ends) {
     const Stretch& stretch = section.stretch;
     const gtsam::Pose3 T_from_to =
         ends.at<gtsam::Pose3>(stretch.from).between(ends.at<gtsam::Pose3>(stretch.to));
+    if (section.expanded_to && section.expanded_to->equals(T_from_to, 0.01 * precision_)) continue;
+    section.expanded_to = T_from_to;
     section.moved = lego_loam_sc::expand(stretch, T_from_to, links_, relatives_);
   }
 }

@@ -4,6 +4,7 @@
 #include <gtsam/nonlinear/NonlinearFactorGraph.h>
 #include <gtsam/nonlinear/Values.h>
 
+#include <optional>
 #include <vector>
 
 #include "graph/pose_graph.hpp"
@@ -39,6 +40,7 @@ class CondensedChain {
     Stretch stretch;
     gtsam::NonlinearFactor::shared_ptr factor;  // none before the stretch is condensed
     double moved = 0.0;                         // m and rad, of all links since then
+    std::optional<gtsam::Pose3> expanded_to;    // pose of its end in its beginning, since then
   };
 
   double precision_;

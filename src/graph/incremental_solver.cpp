@@ -15,8 +15,8 @@ constexpr double kFlicker = 1e-6;
 
 gtsam::ISAM2Params incremental_params(double precision) {
   gtsam::ISAM2Params params;
-  // The smallest change is carried down to the leaves: a stretch multiplies rotation by its length.
-  params.optimizationParams = gtsam::ISAM2GaussNewtonParams(0.0);
+  // Far smaller changes are carried down to the leaves: a stretch multiplies rotation by its length.
+  params.optimizationParams = gtsam::ISAM2GaussNewtonParams(0.01 * precision);
   params.relinearizeThreshold = precision;
   params.relinearizeSkip = 1;
   params.evaluateNonlinearError = true;

@@ -24,7 +24,7 @@ constexpr double kLeastSpacing = 0.125;
 constexpr double kFineSpacing = 2.5;
 constexpr double kCoarseSpacing = 3.5;
 // The map is searched for voxels out of reach after this share of its radius has been driven.
-constexpr double kEvictionShare = 0.1;
+constexpr double kEvictionShare = 0.2;
 
 using Vector12 = Eigen::Matrix<double, 12, 1>;
 

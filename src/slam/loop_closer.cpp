@@ -30,10 +30,9 @@ constexpr double kLongestPause = 0.3 * kSameVisit;
 // has been as near to as this, m, is known.
 constexpr double kTrusted = 100.0;
 constexpr double kSamePlace = 2.0;
-// Then a loop is expected to tell nothing new, which takes fewer neighbours and voxel sizes to
-// show.
-constexpr int kGlanceNeighbours = 3;
-constexpr int kGlanceLevels = 2;
+// Then a loop is expected to tell nothing new, which a few neighbours at the finest level show.
+constexpr int kGlanceNeighbours = 2;
+constexpr int kGlanceLevels = 1;
 // Where so many loops end within this distance, m, another visit is no news unless it disagrees.
 // Chi has six degrees of freedom: 2.5 is a usual value of it.
 constexpr int kWellTied = 5;
