@@ -23,7 +23,7 @@ FLAGS = (
     "--enable-unsafe-swiftshader"
 ).split()
 LOOPY = [
-    *("--set", "loop.min_travel=2"),
+    *("--set", "loop.min_travel=3"),
     *("--set", "loop.spacing=0.5"),
     *("--set", "key_frames.distance=1"),
 ]
@@ -67,7 +67,7 @@ def test_the_page_tells_the_run_its_errors_and_its_settings(run):
     page = (run / "report.html").read_text()
     for text in ("<h1>scans</h1>", "60 in 5.9 s", "Errors against the truth", "ATE, RMSE (m)"):
         assert text in page
-    assert "min_travel: 2 " in page  # of settings.yaml
+    assert "min_travel: 3 " in page  # of settings.yaml
     assert "rs16, " in page
     health = json.loads((run / "summary.json").read_text())["health"]
     assert health["inliers"]["warnings"] > 0
