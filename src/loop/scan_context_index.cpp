@@ -64,10 +64,13 @@ void ScanContextIndex::add(int key_frame, ScanContext context) {
   contexts_.push_back(std::move(context));
 }
 
+std::span<const int> ScanContextIndex::key_frames_before(int eligible) const {
+  return {key_frames_.begin(), std::lower_bound(key_frames_.begin(), key_frames_.end(), eligible)};
+}
+
 std::vector<LoopCandidate> ScanContextIndex::search(int query, const ScanContext& context,
                                                     int eligible) const {
-  const auto count = static_cast<std::size_t>(
-      std::lower_bound(key_frames_.begin(), key_frames_.end(), eligible) - key_frames_.begin());
+  const std::size_t count = key_frames_before(eligible).size();
   std::vector<LoopCandidate> candidates;
   for (const int place : nearest_keys(ring_keys_, context.ring_key, count, settings_.candidates)) {
     const ScanContextMatch match = compare(context, contexts_[place]);

@@ -22,6 +22,8 @@ class ScanContextIndex {
 
   /// The key frames that were described.
   std::span<const int> key_frames() const { return key_frames_; }
+  /// Those of them before `eligible`.
+  std::span<const int> key_frames_before(int eligible) const;
 
   /// Loop candidates of key frame `query` among those before `eligible`: those of the
   /// `settings.candidates` nearest ring keys whose D is below `settings.threshold`, best first, so

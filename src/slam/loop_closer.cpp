@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "core/time.hpp"
 #include "loop/radius_search.hpp"
 #include "slam/edge_covariance.hpp"
 
@@ -104,26 +105,21 @@ int LoopCloser::count_eligible(const KeyFrames& key_frames, const Pieces& pieces
   const int query = static_cast<int>(key_frames.size()) - 1;
   const auto numbers = std::views::iota(0, query);
   return *std::ranges::partition_point(numbers, [&](int k) {
-    const auto age_ns =
-        static_cast<double>(key_frames.reference_ns(query) - key_frames.reference_ns(k));
+    const double age = seconds(key_frames.reference_ns(query) - key_frames.reference_ns(k));
     return !pieces.same(k, query) ||
            (key_frames.travelled(query) - key_frames.travelled(k) >= settings_.min_travel &&
-            1e-9 * age_ns >= settings_.min_seconds);
+            age >= settings_.min_seconds);
   });
-}
-
-std::span<const int> LoopCloser::places_before(int eligible) const {
-  const auto end = std::ranges::lower_bound(places(), eligible);
-  return places().first(static_cast<std::size_t>(end - places().begin()));
 }
 
 bool LoopCloser::place_is_known(double travelled, int eligible, const PoseGraph& graph) const {
   if (travelled - last_loop_travelled_ > kTrusted) return false;
-  const std::vector<Pose>& poses = graph.poses();
-  const Eigen::Vector3d here = poses.back().translation();
-  return std::ranges::any_of(places_before(eligible), [&](int place) {
-    return (poses[place].translation() - here).norm() <= kSamePlace;
-  });
+  RadiusSearchSettings same_place;
+  same_place.radius = kSamePlace;
+  same_place.candidates = 1;
+  const int here = static_cast<int>(graph.size()) - 1;
+  return !search_radius(graph.poses(), here, contexts_.key_frames_before(eligible), same_place)
+              .empty();
 }
 
 void LoopCloser::pause(double travelled, double metres) {
@@ -146,8 +142,8 @@ std::vector<LoopCandidate> LoopCloser::candidates(const KeyFrames& key_frames, i
     }
   }
   if (settings_.radius_search.enabled) {
-    for (const LoopCandidate& candidate :
-         search_radius(graph.poses(), query, places_before(eligible), settings_.radius_search))
+    for (const LoopCandidate& candidate : search_radius(
+             graph.poses(), query, contexts_.key_frames_before(eligible), settings_.radius_search))
       if (pieces.joined(candidate.match, query)) found.push_back(candidate);
   }
   if (detector_ && eligible > 0) {

@@ -52,7 +52,6 @@ class LoopCloser {
                           const KeyFrames& key_frames, const Pieces& pieces,
                           const PoseGraph& graph) const;
 
-  std::span<const int> places_before(int eligible) const;
   bool place_is_known(double travelled, int eligible, const PoseGraph& graph) const;
   PoseEdge edge_of(const LoopReport& report) const;
   bool tells_nothing_new(const PoseEdge& loop, double travelled, const PoseGraph& graph) const;

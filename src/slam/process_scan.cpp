@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/time.hpp"
 #include "features/features.hpp"
 #include "odometry/deskew.hpp"
 #include "segmentation/ground.hpp"
@@ -23,7 +24,7 @@ constexpr std::size_t kMinPoints = 100;
 constexpr double kSpeedMemory = 1.0;
 
 double seconds_between(std::int64_t from_ns, std::int64_t to_ns) {
-  return 1e-9 * static_cast<double>(to_ns - from_ns);
+  return seconds(to_ns - from_ns);
 }
 
 }  // namespace

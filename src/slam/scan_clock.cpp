@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "core/time.hpp"
+
 namespace lego_loam_sc {
 namespace {
 
@@ -33,7 +35,7 @@ std::optional<ScanTime> ScanClock::read(std::int64_t stamp_ns) {
   if (is_step(since_last)) {
     step_ns_ = since_last;
   } else {
-    result.jump_s = 1e-9 * static_cast<double>(since_last);
+    result.jump_s = seconds(since_last);
     const bool jumped_back = ahead_before_ns_ && is_step(stamp_ns + *ahead_before_ns_ - time_ns_);
     const std::int64_t ahead = jumped_back ? *ahead_before_ns_ : time_ns_ + step_ns_ - stamp_ns;
     ahead_before_ns_ = ahead_ns_;
