@@ -9,7 +9,7 @@
 namespace lego_loam_sc {
 namespace {
 
-constexpr double kRadius = 200.0;
+constexpr double kRadius = 400.0;
 
 // Tells how many key frames were loaded: each has planar points alone.
 class CountedBlobs : public MemoryBlobs {
@@ -57,7 +57,7 @@ struct Drive {
 
 TEST(MapUpkeep, LeavesTheMapAloneWhileKeyFramesStayWhereTheyAre) {
   Drive drive;
-  for (int k = 0; k < 20; ++k) drive.go_to(5.0 * k);
+  for (int k = 0; k < 20; ++k) drive.go_to(10.0 * k);
   for (Pose& pose : drive.poses) pose.translation().y() += 0.02;
   EXPECT_FALSE(drive.follow());
   EXPECT_EQ(drive.put_in_later(), 0);
@@ -65,7 +65,7 @@ TEST(MapUpkeep, LeavesTheMapAloneWhileKeyFramesStayWhereTheyAre) {
 
 TEST(MapUpkeep, DrawsTheMapAnewWhenKeyFramesHaveMoved) {
   Drive drive;
-  for (int k = 0; k < 20; ++k) drive.go_to(5.0 * k);
+  for (int k = 0; k < 20; ++k) drive.go_to(10.0 * k);
   drive.poses[7].translation().y() += 0.05;
   EXPECT_TRUE(drive.follow());
   const int at_once = drive.blobs->loaded();
@@ -75,12 +75,12 @@ TEST(MapUpkeep, DrawsTheMapAnewWhenKeyFramesHaveMoved) {
   EXPECT_FALSE(drive.mapper.empty());
 }
 
-// Five times over the same ten places, each 5 m from the next, then away and back to the first: the
-// map has forgotten all of them and is there again with one of each place, but for the present.
+// Five times over the same ten places, each 10 m from the next, then away and back to the first:
+// the map has forgotten all of them and is there again with one of each place, but for the present.
 TEST(MapUpkeep, PutsInOneKeyFrameOfEachPlace) {
   Drive drive;
   for (int round = 0; round < 5; ++round)
-    for (int k = 0; k < 10; ++k) drive.go_to(5.0 * k + 0.1 * round);
+    for (int k = 0; k < 10; ++k) drive.go_to(10.0 * k + 0.1 * round);
   drive.go_to(500.0);
   drive.go_to(0.0);
   EXPECT_FALSE(drive.follow());
@@ -89,7 +89,7 @@ TEST(MapUpkeep, PutsInOneKeyFrameOfEachPlace) {
 
 TEST(MapUpkeep, OtherMapsStayOut) {
   Drive drive;
-  for (int k = 0; k < 10; ++k) drive.go_to(5.0 * k);
+  for (int k = 0; k < 10; ++k) drive.go_to(10.0 * k);
   drive.go_to(500.0);
   drive.pieces.begin(static_cast<int>(drive.poses.size()));
   drive.upkeep.clear();

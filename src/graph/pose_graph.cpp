@@ -26,6 +26,8 @@ constexpr double kPriorSigma = 1e-3;  // holds the gauge; any value gives the sa
 // A few steps do, unless a loop pulls about as hard as its kernel allows: its weight then settles
 // slowly.
 constexpr int kMaxIterations = 100;
+// After a change of so many precisions the next is some hundred times smaller.
+constexpr double kLastChange = 10.0;
 
 Pose from_gtsam(const Pose3& pose) {
   return Pose(pose.matrix());
@@ -105,8 +107,7 @@ void PoseGraph::Solver::optimise() {
     for (const int end : ends) estimate.insert(end, to_gtsam(poses[end]));
     estimate = incremental_.step(graph, estimate);
     chain_.expand(estimate);
-    // The next change would be some hundred times smaller.
-    if (place_key_frames(estimate) < settings_.precision) break;
+    if (place_key_frames(estimate) < kLastChange * settings_.precision) break;
   }
 }
 

@@ -7,15 +7,15 @@
 
 namespace lego_loam_sc {
 
-std::vector<LoopCandidate> search_radius(std::span<const Pose> T_map_key, int query,
-                                         std::span<const int> eligible,
+std::vector<LoopCandidate> search_radius(int query, const Eigen::Vector3d& position,
+                                         std::span<const int> key_frames,
+                                         std::span<const Eigen::Vector3d> positions,
                                          const RadiusSearchSettings& settings) {
   std::vector<LoopCandidate> candidates;
-  const Eigen::Vector3d position = T_map_key[query].translation();
-  for (const int match : eligible) {
-    const double distance = (T_map_key[match].translation() - position).norm();
+  for (std::size_t i = 0; i < key_frames.size(); ++i) {
+    const double distance = (positions[i] - position).norm();
     if (distance <= settings.radius)
-      candidates.push_back({query, match, LoopCandidate::Detector::radius, distance, 0.0});
+      candidates.push_back({query, key_frames[i], LoopCandidate::Detector::radius, distance, 0.0});
   }
   const auto kept = std::min<std::size_t>(candidates.size(), settings.candidates);
   const auto end = candidates.begin() + static_cast<std::ptrdiff_t>(kept);

@@ -24,9 +24,10 @@ constexpr double kContradiction = 7.0;
 // day would let the graph grow without end.
 constexpr double kNothingNew = 0.5;
 constexpr double kSameVisit = 20.0;
-// With each of them the pause before the next search doubles, up to this, m, and to twice as much
-// where many loops end.
+// With each of them the pause before the next search doubles, up to this, m, and once more as much
+// for every kWellTied loops that end near, so many times at most.
 constexpr double kLongestPause = 0.3 * kSameVisit;
+constexpr double kMostShares = 3.0;
 // Until so far after a loop, m, the pose graph knows where it is: then a place that another visit
 // has been as near to as this, m, is known.
 constexpr double kTrusted = 100.0;
@@ -36,11 +37,12 @@ constexpr int kGlanceNeighbours = 2;
 constexpr int kGlanceLevels = 1;
 // Where so many loops end within this distance, m, another visit is no news unless it disagrees.
 // Chi has six degrees of freedom: 2.5 is a usual value of it.
-constexpr int kWellTied = 5;
+constexpr double kWellTied = 5.0;
 constexpr double kPlace = 50.0;
 constexpr double kDisagreement = 2.5;
 // Loops that agree wait for each other until they are this share of all, and move the poses
-// together.
+// together. Of true ones 19 in 20 agree as well as this.
+constexpr double kAgreement = 3.5;
 constexpr double kWaitingShare = 1.0 / 32.0;
 // Between two maps there is no pose graph to contradict a candidate. So more of them are tried, and
 // more must agree: the overlap of a loop that joins them.
@@ -70,13 +72,13 @@ double way_between(const LoopCandidate& candidate, const KeyFrames& key_frames,
                                                        : now;
 }
 
-bool well_tied(int key_frame, const PoseGraph& graph) {
-  const std::vector<PoseEdge>& loops = graph.loop_edges();
+// Loops that end near a key frame.
+double ties(int key_frame, const PoseGraph& graph) {
   const std::vector<Pose>& poses = graph.poses();
   const Eigen::Vector3d place = poses[key_frame].translation();
-  return std::count_if(loops.begin(), loops.end(), [&](const PoseEdge& loop) {
-           return (poses[loop.to].translation() - place).norm() <= kPlace;
-         }) >= kWellTied;
+  return static_cast<double>(std::ranges::count_if(graph.loop_edges(), [&](const PoseEdge& loop) {
+    return (poses[loop.to].translation() - place).norm() <= kPlace;
+  }));
 }
 
 // How far a loop is from what the pose graph expects, in sigmas of the drift since then.
@@ -117,9 +119,19 @@ bool LoopCloser::place_is_known(double travelled, int eligible, const PoseGraph&
   RadiusSearchSettings same_place;
   same_place.radius = kSamePlace;
   same_place.candidates = 1;
-  const int here = static_cast<int>(graph.size()) - 1;
-  return !search_radius(graph.poses(), here, contexts_.key_frames_before(eligible), same_place)
-              .empty();
+  return !near_newest(eligible, graph, same_place).empty();
+}
+
+std::vector<LoopCandidate> LoopCloser::near_newest(int eligible, const PoseGraph& graph,
+                                                   const RadiusSearchSettings& settings) const {
+  return search_radius(static_cast<int>(graph.size()) - 1, graph.poses().back().translation(),
+                       contexts_.key_frames_before(eligible), positions_, settings);
+}
+
+void LoopCloser::optimise(PoseGraph& graph) {
+  graph.optimise();
+  for (std::size_t i = 0; i < positions_.size(); ++i)
+    positions_[i] = graph.poses()[places()[i]].translation();
 }
 
 void LoopCloser::pause(double travelled, double metres) {
@@ -142,8 +154,7 @@ std::vector<LoopCandidate> LoopCloser::candidates(const KeyFrames& key_frames, i
     }
   }
   if (settings_.radius_search.enabled) {
-    for (const LoopCandidate& candidate : search_radius(
-             graph.poses(), query, contexts_.key_frames_before(eligible), settings_.radius_search))
+    for (const LoopCandidate& candidate : near_newest(eligible, graph, settings_.radius_search))
       if (pieces.joined(candidate.match, query)) found.push_back(candidate);
   }
   if (detector_ && eligible > 0) {
@@ -213,8 +224,10 @@ std::vector<LoopReport> LoopCloser::close(const KeyFrames& key_frames, ScanConte
   const int newest = static_cast<int>(key_frames.size()) - 1;
   const int eligible = count_eligible(key_frames, pieces);
   std::vector<LoopReport> reports = find(key_frames, eligible, context, pieces, graph);
-  if (pieces.maps() > 1 || !place_is_known(key_frames.travelled(newest), eligible, graph))
+  if (pieces.maps() > 1 || !place_is_known(key_frames.travelled(newest), eligible, graph)) {
     contexts_.add(newest, std::move(context));
+    positions_.emplace_back(graph.poses()[newest].translation());
+  }
   return reports;
 }
 
@@ -229,20 +242,21 @@ bool LoopCloser::tells_nothing_new(const PoseEdge& loop, double travelled,
                                    const PoseGraph& graph) const {
   const double chi = graph.chi(loop);
   const bool same_visit = travelled - last_loop_travelled_ < kSameVisit;
-  return (same_visit && chi < kNothingNew) || (chi < kDisagreement && well_tied(loop.from, graph));
+  return (same_visit && chi < kNothingNew) ||
+         (chi < kDisagreement && ties(loop.from, graph) >= kWellTied);
 }
 
 // False when the others contradict the loop, which is taken out again.
 bool LoopCloser::add_to(PoseGraph& graph, const PoseEdge& loop, bool joins) {
-  const bool agrees = !joins && graph.chi(loop) < kDisagreement;
+  const bool agrees = !joins && graph.chi(loop) < kAgreement;
   graph.add_loop(loop);
   const std::size_t loops = graph.loop_edges().size();
   if (agrees && ++waiting_ <= kWaitingShare * static_cast<double>(loops)) return true;
   waiting_ = 0;
-  graph.optimise();
+  optimise(graph);
   if (graph.loop_chi(loops - 1) <= kContradiction) return true;
   graph.remove_loop(loops - 1);
-  graph.optimise();
+  optimise(graph);
   return false;
 }
 
@@ -267,7 +281,8 @@ std::vector<LoopReport> LoopCloser::find(const KeyFrames& key_frames, int eligib
     };
     const bool expected = !joins && now - last_loop_travelled_ < kTrusted;
     if ((expected && nothing_new(Effort::glance)) || nothing_new(Effort::full)) {
-      const double longest = (well_tied(candidate.match, graph) ? 2.0 : 1.0) * kLongestPause;
+      const double share = std::floor(ties(candidate.match, graph) / kWellTied);
+      const double longest = (1.0 + std::min(share, kMostShares)) * kLongestPause;
       last_loop_travelled_ = now;
       pause(now, std::max(settings_.spacing, std::min(2.0 * pause_, longest)));
       return reports;

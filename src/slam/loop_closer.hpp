@@ -37,7 +37,7 @@ class LoopCloser {
   /// See core/state_archive.hpp.
   template <class Archive>
   void state(Archive& archive) {
-    archive(contexts_, last_loop_travelled_, next_search_travelled_, pause_, waiting_);
+    archive(contexts_, positions_, last_loop_travelled_, next_search_travelled_, pause_, waiting_);
   }
 
  private:
@@ -52,10 +52,13 @@ class LoopCloser {
                           const KeyFrames& key_frames, const Pieces& pieces,
                           const PoseGraph& graph) const;
 
+  std::vector<LoopCandidate> near_newest(int eligible, const PoseGraph& graph,
+                                         const RadiusSearchSettings& settings) const;
   bool place_is_known(double travelled, int eligible, const PoseGraph& graph) const;
   PoseEdge edge_of(const LoopReport& report) const;
   bool tells_nothing_new(const PoseEdge& loop, double travelled, const PoseGraph& graph) const;
   bool add_to(PoseGraph& graph, const PoseEdge& loop, bool joins);
+  void optimise(PoseGraph& graph);
   void pause(double travelled, double metres);
 
   LoopSettings settings_;
@@ -63,7 +66,8 @@ class LoopCloser {
   double range_noise_;
   LoopDetector detector_;
   ScanContextIndex contexts_;
-  double last_loop_travelled_ = -1e9;  // m along the path
+  std::vector<Eigen::Vector3d> positions_;  // of the places, map frame; in cache, unlike all poses
+  double last_loop_travelled_ = -1e9;       // m along the path
   double next_search_travelled_ = 0.0;
   double pause_;     // m
   int waiting_ = 0;  // loops in the graph that it was not optimised for

@@ -18,7 +18,7 @@ constexpr int kWithEachScan = 3;
 
 // m; of the key frames in a cell of this size one is enough, and of the radius of the local map
 // this share. Whoever drives the same ways all day would otherwise have very many of them put in.
-constexpr double kCell = 4.0;
+constexpr double kCell = 8.0;
 constexpr double kNear = 0.5;
 
 double distance(const Pose& a, const Pose& b) {
