@@ -11,6 +11,7 @@
 #include <tuple>
 #include <vector>
 
+#include "features/feature_row.hpp"
 #include "features/roughness.hpp"
 #include "made_scenes.hpp"
 #include "mapping/voxel_filter.hpp"
@@ -21,17 +22,15 @@ namespace {
 using Eigen::Vector3d;
 
 // Equation (1), one neighbour after the other.
-double naive_roughness(const std::vector<float>& range, const std::vector<std::uint16_t>& column,
-                       int columns, int neighbours, int max_gap, int i) {
+double naive_roughness(const std::vector<float>& range, const std::vector<std::uint8_t>& gap_before,
+                       int neighbours, int i) {
   const int count = static_cast<int>(range.size());
   double sum = 0.0;
   for (const int direction : {-1, 1}) {
     int here = i;
     for (int k = 0; k < neighbours; ++k) {
       const int next = (here + direction + count) % count;
-      int gap = direction * (column[next] - column[here]);
-      if (gap < 0) gap += columns;
-      if (gap > max_gap) return std::nan("");
+      if (gap_before[direction > 0 ? next : here]) return std::nan("");
       sum += static_cast<double>(range[next]) - range[i];
       here = next;
     }
@@ -44,20 +43,16 @@ TEST(Roughness, IsEquationOne) {
   std::uniform_real_distribution<float> range(2.0f, 50.0f);
   for (int trial = 0; trial < 50; ++trial) {
     std::vector<float> ranges;
-    std::vector<std::uint16_t> columns;
-    for (std::uint16_t column = 0; column < 360; ++column) {
-      // Gaps of all lengths, and several points in one column.
-      if (random() % 40 == 0) column = static_cast<std::uint16_t>(column + random() % 20);
-      for (unsigned n = random() % 10; column < 360 && n < 11; n += 10) {
-        ranges.push_back(range(random));
-        columns.push_back(column);
-      }
+    std::vector<std::uint8_t> gap_before;
+    for (int i = 0; i < 360; ++i) {
+      ranges.push_back(range(random));
+      gap_before.push_back(random() % 40 == 0);
     }
     for (const int neighbours : {1, 5}) {
-      const std::vector<float> c = roughness(ranges, columns, 360, neighbours, 10);
+      const std::vector<float> c = roughness(ranges, gap_before, neighbours);
       int none = 0;
       for (int i = 0; i < static_cast<int>(c.size()); ++i) {
-        const double expected = naive_roughness(ranges, columns, 360, neighbours, 10, i);
+        const double expected = naive_roughness(ranges, gap_before, neighbours, i);
         EXPECT_EQ(std::isnan(c[i]), std::isnan(expected)) << i;
         none += std::isnan(expected);
         if (!std::isnan(expected)) {
@@ -71,11 +66,37 @@ TEST(Roughness, IsEquationOne) {
 
 TEST(Roughness, ARowOfFewPointsHasNone) {
   for (const int count : {0, 1, 10}) {
-    std::vector<std::uint16_t> column(count);
-    for (int i = 0; i < count; ++i) column[i] = static_cast<std::uint16_t>(i);
-    for (const float c : roughness(std::vector<float>(count, 5.0f), column, 1800, 5, 10))
+    const std::vector<std::uint8_t> no_gaps(count, 0);
+    for (const float c : roughness(std::vector<float>(count, 5.0f), no_gaps, 5))
       EXPECT_TRUE(std::isnan(c));
   }
+}
+
+// Holes of 5 columns in a row of 100 points all round, whose sensor sees every second column; half
+// of the points are ground. The seam between the last and the first is no hole.
+TEST(FeatureRow, AHolePartsObjectsButNotTheGround) {
+  const SensorModel sensor;
+  RangeImage image;
+  image.rows = 1;
+  image.columns = 216;
+  image.usual_step = 2;
+  Segmentation segmentation;
+  std::vector<std::uint8_t> expected;
+  for (int i = 0, column = 0; i < 100; ++i) {
+    const bool hole = i % 20 == 10;
+    column += hole ? 5 : 2;
+    image.range.push_back(10.0f);
+    image.column.push_back(static_cast<std::uint16_t>(column));
+    segmentation.label.push_back(i < 50 ? Label::ground : Label::segment);
+    expected.push_back(hole && i >= 50);
+  }
+  image.row_begin = {0, 100};
+  FeatureRow row;
+  row.take(image, segmentation, 0, {}, RoughnessThreshold(sensor, {}));
+  EXPECT_EQ(row.gap_before, expected);
+  image.columns = 2000;
+  row.take(image, segmentation, 0, {}, RoughnessThreshold(sensor, {}));
+  EXPECT_EQ(row.gap_before.front(), 1);
 }
 
 TEST(Roughness, OfARightAngledCornerIsThatOfItsClosedForm) {
@@ -87,13 +108,12 @@ TEST(Roughness, OfARightAngledCornerIsThatOfItsClosedForm) {
   EXPECT_NEAR(expected, 1.07e-2, 1e-4);
   for (const double distance : {2.0, 30.0}) {
     std::vector<float> range;
-    std::vector<std::uint16_t> column;
     for (int k = -20; k <= 20; ++k) {
       const double a = std::abs(k) * kStep;
       range.push_back(static_cast<float>(distance / (std::cos(a) - std::sin(a))));
-      column.push_back(static_cast<std::uint16_t>(900 + k));
     }
-    EXPECT_NEAR(roughness(range, column, 1800, 5, 10)[20], expected, 1e-5);
+    const std::vector<std::uint8_t> no_gaps(range.size(), 0);
+    EXPECT_NEAR(roughness(range, no_gaps, 5)[20], expected, 1e-5);
   }
 }
 

@@ -209,6 +209,21 @@ TEST(RangeImage, CompensatedScansAndScansWithoutTimesHaveNoAges) {
   expect_no_ages();
 }
 
+TEST(RangeImage, TheUsualStepIsThatOfMostPoints) {
+  const SensorModel sensor = made_sensor(900);
+  for (const int step : {1, 2, 3}) {
+    Scan scan;
+    for (int column = 0; column < sensor.columns; column += step) {
+      if (column % 50 < 20) continue;  // holes
+      const double azimuth = 2.0 * M_PI * (column + 0.5) / sensor.columns;
+      const Vector3d point(std::cos(azimuth), std::sin(azimuth),
+                           std::tan(radians(sensor.elevation_deg[8])));
+      add_point(scan, (10.0 * point).cast<float>(), 8, 0);
+    }
+    EXPECT_EQ(project(scan, sensor).usual_step, step);
+  }
+}
+
 TEST(RangeImage, AnEmptyScanIsAnEmptyImage) {
   const RangeImage image = project({}, made_sensor(900));
   EXPECT_EQ(image.size(), 0u);

@@ -94,9 +94,10 @@ struct LoopSettings {
     visit("min_travel", s.min_travel, 0.0, 10000.0,
           "m travelled between two visits; less is no loop");
     visit("min_seconds", s.min_seconds, 0.0, 10000.0, "s between two visits; less is no loop");
-    visit(
-        "spacing", s.spacing, 0.0, 1000.0,
-        "m to travel after a loop before the next is sought; longer while loops tell nothing new");
+    visit("spacing", s.spacing, 0.0, 1000.0,
+          "m to travel after a loop, or candidates that ICP refused, before the next is sought; "
+          "longer "
+          "while loops tell nothing new");
   }
 };
 

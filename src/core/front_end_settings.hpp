@@ -54,7 +54,8 @@ struct FeatureSettings {
   int min_edges = 100;
   double planar_spacing = 0.2;
   int suppressed_neighbours = 5;
-  int max_column_gap = 10;
+  int max_column_gap = 2;
+  int max_ground_gap = 10;
   double occlusion_gap = 0.3;
 
   template <class Self, class Visit>
@@ -81,7 +82,9 @@ struct FeatureSettings {
     visit("suppressed_neighbours", s.suppressed_neighbours, 0, 20,
           "points on each side of a pick that cannot be picked any more");
     visit("max_column_gap", s.max_column_gap, 1, 100,
-          "columns; points farther apart in a row are no neighbours");
+          "usual steps along a row; points farther apart are no neighbours");
+    visit("max_ground_gap", s.max_ground_gap, 1, 100,
+          "usual steps along a row; the same for two points of the ground");
     visit("occlusion_gap", s.occlusion_gap, 0.0, 10.0,
           "m; the far side of a range jump larger than this makes no features");
   }

@@ -37,6 +37,19 @@ void take_kept_points(const RangeImage& image, const Segmentation& segmentation,
   resize(count, row);
 }
 
+// The ground is one surface: a hole in it parts no two things.
+void find_gaps(const RangeImage& image, const FeatureSettings& settings, FeatureRow& row) {
+  const int count = row.size();
+  row.gap_before.resize(count);
+  for (int i = 0; i < count; ++i) {
+    const int before = i == 0 ? count - 1 : i - 1;
+    const int step = row.column[i] - row.column[before] + (i == 0 ? image.columns : 0);
+    const bool ground = row.label[i] == Label::ground && row.label[before] == Label::ground;
+    const int widest = ground ? settings.max_ground_gap : settings.max_column_gap;
+    row.gap_before[i] = step > widest * image.usual_step;
+  }
+}
+
 // Marks points that are seen at a flat angle: at the ends of the row there is no telling.
 void judge_angles(const RoughnessThreshold& threshold, FeatureRow& row) {
   const int count = row.size();
@@ -69,7 +82,7 @@ void block_hidden(const RangeImage& image, const FeatureSettings& settings, Feat
     const float next = row.range[i + 1];
     const float gap = std::max(occlusion_gap, 3.0f * step * std::min(here, next));
     if (std::abs(here - next) <= gap) continue;
-    if (row.column[i + 1] - row.column[i] >= settings.max_column_gap) continue;
+    if (row.gap_before[i + 1]) continue;
     const bool far_side_ends = here > next;
     const int first = far_side_ends ? std::max(i - settings.neighbours, 0) : i + 1;
     const int last = far_side_ends ? i : std::min(i + 1 + settings.neighbours, row.size() - 1);
@@ -90,8 +103,8 @@ RoughnessThreshold::RoughnessThreshold(const SensorModel& sensor, const FeatureS
 void FeatureRow::take(const RangeImage& image, const Segmentation& segmentation, int number,
                       const FeatureSettings& settings, const RoughnessThreshold& c_th) {
   take_kept_points(image, segmentation, number, *this);
-  roughness = lego_loam_sc::roughness(range, column, image.columns, settings.neighbours,
-                                      settings.max_column_gap);
+  find_gaps(image, settings, *this);
+  roughness = lego_loam_sc::roughness(range, gap_before, settings.neighbours);
   judge_angles(c_th, *this);
   block_hidden(image, settings, *this);
   pick.assign(index.size(), Pick::none);

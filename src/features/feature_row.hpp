@@ -42,6 +42,8 @@ struct FeatureRow {
   std::vector<float> range;          ///< m
   std::vector<std::uint16_t> column;
   std::vector<Label> label;
+  std::vector<std::uint8_t>
+      gap_before;                     ///< no neighbour of the point before, of the first the last
   std::vector<float> threshold;       ///< c_th
   std::vector<float> roughness;       ///< equation (1)
   std::vector<std::uint8_t> blocked;  ///< makes no feature

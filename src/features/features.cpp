@@ -18,7 +18,7 @@ void suppress(int i, const FeatureSettings& settings, FeatureRow& row) {
     for (int k = 1; k <= settings.suppressed_neighbours; ++k) {
       const int j = i + direction * k;
       if (j < 0 || j >= row.size()) break;
-      if (std::abs(row.column[j] - row.column[j - direction]) > settings.max_column_gap) break;
+      if (row.gap_before[std::max(j, j - direction)]) break;
       row.used[j] = 1;
     }
   }

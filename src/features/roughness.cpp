@@ -7,8 +7,7 @@
 namespace lego_loam_sc {
 
 std::vector<float> roughness(const std::vector<float>& range,
-                             const std::vector<std::uint16_t>& column, int columns, int neighbours,
-                             int max_column_gap) {
+                             const std::vector<std::uint8_t>& gap_before, int neighbours) {
   const int count = static_cast<int>(range.size());
   std::vector<float> result(count, kNoRoughness);
   if (count <= 2 * neighbours) return result;
@@ -16,23 +15,14 @@ std::vector<float> roughness(const std::vector<float>& range,
   // The row closed to a ring: `neighbours` points of the other end on each side.
   const int wings = 2 * neighbours;
   std::vector<float> r(count + wings);
-  std::vector<int> unrolled(count + wings);  // columns, ascending across the seam
-  for (int i = 0; i < count; ++i) {
-    r[i + neighbours] = range[i];
-    unrolled[i + neighbours] = column[i];
-  }
-  for (int i = 0; i < neighbours; ++i) {
-    r[i] = range[count - neighbours + i];
-    r[count + neighbours + i] = range[i];
-    unrolled[i] = column[count - neighbours + i] - columns;
-    unrolled[count + neighbours + i] = column[i] + columns;
-  }
-
-  // gaps[i] = number of wide steps before point i of the closed row; equal at both ends of a
-  // window when the window has none.
+  // Number of gaps before each point of the closed row; equal at both ends of a window when the
+  // window has none.
   std::vector<int> gaps(count + wings, 0);
-  for (int i = 1; i < count + wings; ++i)
-    gaps[i] = gaps[i - 1] + (unrolled[i] - unrolled[i - 1] > max_column_gap ? 1 : 0);
+  for (int i = 0; i < count + wings; ++i) {
+    const int point = (i - neighbours + count) % count;
+    r[i] = range[point];
+    if (i > 0) gaps[i] = gaps[i - 1] + (gap_before[point] != 0 ? 1 : 0);
+  }
 
   // Neighbour by neighbour for the whole row, which the compiler vectorises.
   std::vector<float> sum(count, 0.0f);

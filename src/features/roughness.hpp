@@ -12,11 +12,9 @@ constexpr float kNoRoughness = std::numeric_limits<float>::quiet_NaN();
 
 /// Equation (1) for the points of one row, which is a closed ring:
 ///   c_i = |sum_{j in S, j != i} (r_j - r_i)| / (|S| |r_i|),
-/// S being the `neighbours` points on each side of i. `range` in m; `column` ascends; points more
-/// than `max_column_gap` columns apart are no neighbours, and a point near such a gap gets
-/// kNoRoughness.
+/// S being the `neighbours` points on each side of i. `range` in m; where `gap_before` is not zero,
+/// a point and the one before are no neighbours, and the points near get kNoRoughness.
 std::vector<float> roughness(const std::vector<float>& range,
-                             const std::vector<std::uint16_t>& column, int columns, int neighbours,
-                             int max_column_gap);
+                             const std::vector<std::uint8_t>& gap_before, int neighbours);
 
 }  // namespace lego_loam_sc

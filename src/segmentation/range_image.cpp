@@ -141,6 +141,19 @@ std::vector<float> ages(const Scan& scan, const std::vector<std::uint32_t>& pixe
   return age;
 }
 
+// The median.
+int usual_step(const RangeImage& image) {
+  std::vector<int> steps(image.columns + 1, 0);  // how many there are of each width
+  int count = 0;
+  for (int row = 0; row < image.rows; ++row) {
+    for (std::uint32_t i = image.row_begin[row] + 1; i < image.row_begin[row + 1]; ++i, ++count)
+      ++steps[image.column[i] - image.column[i - 1]];
+  }
+  int step = 0;
+  for (int narrower = steps[0]; 2 * narrower < count; narrower += steps[step]) ++step;
+  return std::max(step, 1);
+}
+
 }  // namespace
 
 RangeImage project(const Scan& scan, const SensorModel& sensor) {
@@ -187,6 +200,7 @@ RangeImage project(const Scan& scan, const SensorModel& sensor) {
     if (nearest < 0 || std::pair(range[i], here) < std::pair(image.range[nearest], nearest))
       nearest = here;
   }
+  image.usual_step = usual_step(image);
   return image;
 }
 

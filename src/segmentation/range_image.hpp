@@ -28,6 +28,9 @@ struct RangeImage {
 
   std::vector<std::int32_t> pixels;  ///< rows x columns, the nearest point of the pixel or -1
 
+  int usual_step = 1;  ///< columns from most points of a row to the next: more than one when the
+                       ///< sensor turns faster than its model says, or has fewer directions
+
   std::int64_t stamp_ns = 0;      ///< of the scan
   std::int64_t reference_ns = 0;  ///< middle of the sweep: the time that points are de-skewed to.
                                   ///< There an error of the velocity has no effect on the pose.
