@@ -151,7 +151,7 @@ struct MappingSettings {
   static void fields(Self& s, Visit&& visit) {
     visit("every", s.every, 1, 100, "scans; every n-th is matched against the map");
     visit("voxel_size", s.voxel_size, 0.05, 10.0,
-          "m; finest voxels of the map, used in small spaces; a surface is fitted to each block of "
+          "m; finest voxels of the map; a surface is fitted to each block of "
           "2 x 2 x 2");
     visit("levels", s.levels, 1, 4, "voxel sizes, each twice the one before");
     visit("radius", s.radius, 5.0, 1000.0, "m; the local map reaches this far round the sensor");

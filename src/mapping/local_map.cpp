@@ -12,11 +12,10 @@ bool reaches(std::span<const double> reach, std::size_t level, double range) {
 }
 
 void insert_into(std::vector<SurfaceMap>& maps, std::span<const double> reach,
-                 const std::vector<FeaturePoint>& points, const Pose& T_map_points,
-                 int first_level) {
+                 const std::vector<FeaturePoint>& points, const Pose& T_map_points) {
   std::vector<Eigen::Vector3d> moved;
   std::vector<double> ranges;
-  for (std::size_t level = first_level; level < maps.size(); ++level) {
+  for (std::size_t level = 0; level < maps.size(); ++level) {
     moved.clear();
     ranges.clear();
     for (const FeaturePoint& p : points) {
@@ -109,10 +108,10 @@ LocalMap::LocalMap(double voxel_size, int levels, double planarity, double row_s
   }
 }
 
-void LocalMap::insert(const Features& features, const Pose& T_map_points, int first_level) {
-  insert_into(planes_, reach_, features.planars_large, T_map_points, first_level);
-  insert_into(lines_, reach_, features.edges_large, T_map_points, first_level);
-  insert_into(scattered_, {}, features.scattered, T_map_points, first_level);
+void LocalMap::insert(const Features& features, const Pose& T_map_points) {
+  insert_into(planes_, reach_, features.planars_large, T_map_points);
+  insert_into(lines_, reach_, features.edges_large, T_map_points);
+  insert_into(scattered_, {}, features.scattered, T_map_points);
 }
 
 std::vector<Correspondence> LocalMap::match(const Features& features, const Pose& T_map_points,

@@ -37,8 +37,8 @@ class LocalMap {
   /// 0 = to all.
   LocalMap(double voxel_size, int levels, double planarity, double row_spacing = 0.0);
 
-  /// Adds the large sets and the scattered points, from `first_level` on (0 = finest).
-  void insert(const Features& features, const Pose& T_map_points, int first_level = 0);
+  /// Adds the large sets and the scattered points.
+  void insert(const Features& features, const Pose& T_map_points);
 
   /// The correspondences of the points of these sets that find a surface within `max_distance` (m)
   /// on the finest level that has one, starting at `first_level` (0 = finest). `last`: what was

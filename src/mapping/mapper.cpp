@@ -19,10 +19,6 @@ constexpr double kMinScale = 1.0;
 constexpr double kMaxScale = 20.0;
 // The spacing of the matched points, as a share of the setting, in the smallest spaces.
 constexpr double kLeastSpacing = 0.125;
-// The finest voxels come into use when the spacing falls below so many of them, and out of use when
-// it rises above so many.
-constexpr double kFineSpacing = 2.5;
-constexpr double kCoarseSpacing = 3.5;
 // The map is searched for voxels out of reach after this share of its radius has been driven.
 constexpr double kEvictionShare = 0.2;
 
@@ -122,9 +118,6 @@ void Mapper::adapt_spacing(int points) {
   const double share = static_cast<double>(points) / settings_.match_points;
   spacing_ = std::clamp(spacing_ * std::clamp(std::sqrt(share), 0.5, 2.0),
                         kLeastSpacing * settings_.match_spacing, settings_.match_spacing);
-  if (spacing_ < kFineSpacing * settings_.voxel_size) first_level_ = 0;
-  if (spacing_ > kCoarseSpacing * settings_.voxel_size)
-    first_level_ = std::min(1, settings_.levels - 1);
 }
 
 MapMatch Mapper::refine(const Features& features, const ScanGuess& guess) {
@@ -154,8 +147,8 @@ MapMatch Mapper::refine(const Features& features, const ScanGuess& guess) {
   MatchedSurfaces surfaces;
   double scale = kMaxScale;
   for (int k = 0; k < settings_.associations; ++k) {
-    correspondences = map_.match(deskew(points, twist), pose, settings_.max_distance, range_noise_,
-                                 first_level_, surfaces);
+    correspondences =
+        map_.match(deskew(points, twist), pose, settings_.max_distance, range_noise_, 0, surfaces);
     match.matches = static_cast<int>(correspondences.size());
     if (!enough(correspondences, points, settings_)) return match;
 
@@ -209,7 +202,7 @@ void Mapper::clear() {
 }
 
 void Mapper::insert(const Features& deskewed, const Pose& T_map_lidar) {
-  map_.insert(deskewed, T_map_lidar, first_level_);
+  map_.insert(deskewed, T_map_lidar);
 }
 
 void Mapper::add_scan(const Features& deskewed, const Pose& T_map_lidar) {

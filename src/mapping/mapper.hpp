@@ -68,8 +68,7 @@ class Mapper {
   /// See core/state_archive.hpp.
   template <class Archive>
   void state(Archive& archive) {
-    archive(map_, elevation_bias_, row_bias_, spacing_, first_level_, last_insertion_,
-            last_eviction_);
+    archive(map_, elevation_bias_, row_bias_, spacing_, last_insertion_, last_eviction_);
   }
 
  private:
@@ -80,8 +79,7 @@ class Mapper {
   LocalMap map_;
   ElevationBias elevation_bias_;
   RowBias row_bias_;
-  double spacing_;       // m, of the points that are matched
-  int first_level_ = 0;  // of the map: the finest voxels are for small spaces
+  double spacing_;  // m, of the points that are matched
   std::optional<Eigen::Vector3d> last_insertion_;
   Eigen::Vector3d last_eviction_ = Eigen::Vector3d::Zero();
 };
