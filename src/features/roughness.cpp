@@ -19,7 +19,9 @@ std::vector<float> roughness(const std::vector<float>& range,
   // window has none.
   std::vector<int> gaps(count + wings, 0);
   for (int i = 0; i < count + wings; ++i) {
-    const int point = (i - neighbours + count) % count;
+    int point = i - neighbours;
+    if (point < 0) point += count;
+    if (point >= count) point -= count;
     r[i] = range[point];
     if (i > 0) gaps[i] = gaps[i - 1] + (gap_before[point] != 0 ? 1 : 0);
   }
