@@ -15,7 +15,8 @@ constexpr double kFlicker = 1e-6;
 
 gtsam::ISAM2Params incremental_params(double precision) {
   gtsam::ISAM2Params params;
-  // Far smaller changes are carried down to the leaves: a stretch multiplies rotation by its length.
+  // Far smaller changes are carried down to the leaves: a stretch multiplies rotation by its
+  // length.
   params.optimizationParams = gtsam::ISAM2GaussNewtonParams(0.01 * precision);
   params.relinearizeThreshold = precision;
   params.relinearizeSkip = 1;
