@@ -131,16 +131,21 @@ TEST(LoopVerifier, RefusesACorridorThatDoesNotTellWhereAlongItTheQueryIs) {
 TEST(LoopVerifier, NeighboursArePlacedByTheirOwnPoses) {
   // All of them at the pose of the match, as some implementations have it, smear the local map.
   const std::vector<Visit> visits = visits_of_hall();
-  const Visit query = visit(hall(), visits[3].T_world_lidar * pose_of(0.4, -0.3, 0, 25.0), 77);
   const std::vector<PlacedKeyFrame> own = placed(visits, visits[3], Pose::Identity());
   std::vector<PlacedKeyFrame> one = own;
   for (PlacedKeyFrame& p : one) p.T_frame_key = Pose::Identity();
   const std::vector<Pose> guess{pose_of(0, 0, 0, 24.0)};
-  const std::vector<PlacedKeyFrame> source{alone(query)};
-  const LoopVerification right = verify_loop(source, own, guess, kNoise, {});
-  const LoopVerification smeared = verify_loop(source, one, guess, kNoise, {});
-  EXPECT_EQ(right.verdict, Verdict::accepted);
-  EXPECT_LT(right.rmse, 0.6 * smeared.rmse);
+  double right = 0.0;
+  double smeared = 0.0;
+  for (std::uint64_t seed = 70; seed < 80; ++seed) {
+    const Visit query = visit(hall(), visits[3].T_world_lidar * pose_of(0.4, -0.3, 0, 25.0), seed);
+    const std::vector<PlacedKeyFrame> source{alone(query)};
+    const LoopVerification result = verify_loop(source, own, guess, kNoise, {});
+    EXPECT_EQ(result.verdict, Verdict::accepted);
+    right += result.rmse;
+    smeared += verify_loop(source, one, guess, kNoise, {}).rmse;
+  }
+  EXPECT_LT(right, 0.5 * smeared);
 }
 
 TEST(LoopVerifier, TheBestOfSeveralGuessesWins) {

@@ -96,8 +96,7 @@ struct LoopSettings {
     visit("min_seconds", s.min_seconds, 0.0, 10000.0, "s between two visits; less is no loop");
     visit("spacing", s.spacing, 0.0, 1000.0,
           "m to travel after a loop, or candidates that ICP refused, before the next is sought; "
-          "longer "
-          "while loops tell nothing new");
+          "longer while loops tell nothing new");
   }
 };
 
