@@ -72,31 +72,39 @@ TEST(Roughness, ARowOfFewPointsHasNone) {
   }
 }
 
-// Holes of 5 columns in a row of 100 points all round, whose sensor sees every second column; half
-// of the points are ground. The seam between the last and the first is no hole.
-TEST(FeatureRow, AHolePartsObjectsButNotTheGround) {
-  const SensorModel sensor;
-  RangeImage image;
-  image.rows = 1;
-  image.columns = 216;
-  image.usual_step = 2;
-  Segmentation segmentation;
-  std::vector<std::uint8_t> expected;
-  for (int i = 0, column = 0; i < 100; ++i) {
-    const bool hole = i % 20 == 10;
-    column += hole ? 5 : 2;
-    image.range.push_back(10.0f);
-    image.column.push_back(static_cast<std::uint16_t>(column));
-    segmentation.label.push_back(i < 50 ? Label::ground : Label::segment);
-    expected.push_back(hole && i >= 50);
+// Steps up to and beyond both limits, points that share a column and points of the ground, on
+// sensors that see each, every second or every third column.
+TEST(FeatureRow, AHolePartsObjectsSoonerThanTheGround) {
+  std::mt19937 random(2);
+  FeatureSettings settings;
+  settings.max_column_gap = 2;
+  settings.max_ground_gap = 10;
+  for (int trial = 0; trial < 60; ++trial) {
+    RangeImage image;
+    image.rows = 1;
+    image.usual_step = 1 + trial % 3;
+    Segmentation segmentation;
+    int column = static_cast<int>(random() % 5);
+    for (int i = 0; i < 200; ++i) {
+      image.range.push_back(10.0f);
+      image.column.push_back(static_cast<std::uint16_t>(column));
+      segmentation.label.push_back(random() % 2 == 0 ? Label::ground : Label::segment);
+      column += static_cast<int>(random() % (12 * image.usual_step));
+    }
+    image.columns = column + 1;  // the seam is as wide as any step
+    image.row_begin = {0, 200};
+    FeatureRow row;
+    row.take(image, segmentation, 0, settings, RoughnessThreshold(SensorModel{}, settings));
+    ASSERT_EQ(row.size(), 200);
+    for (int i = 0; i < 200; ++i) {
+      const int before = (i + 199) % 200;
+      const int step = (image.column[i] - image.column[before] + image.columns) % image.columns;
+      const bool both_ground =
+          segmentation.label[i] == Label::ground && segmentation.label[before] == Label::ground;
+      EXPECT_EQ(row.gap_before[i] != 0, step > (both_ground ? 10 : 2) * image.usual_step)
+          << "trial " << trial << ", point " << i << ", step " << step;
+    }
   }
-  image.row_begin = {0, 100};
-  FeatureRow row;
-  row.take(image, segmentation, 0, {}, RoughnessThreshold(sensor, {}));
-  EXPECT_EQ(row.gap_before, expected);
-  image.columns = 2000;
-  row.take(image, segmentation, 0, {}, RoughnessThreshold(sensor, {}));
-  EXPECT_EQ(row.gap_before.front(), 1);
 }
 
 TEST(Roughness, OfARightAngledCornerIsThatOfItsClosedForm) {
