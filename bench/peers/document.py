@@ -28,6 +28,7 @@ def write(store, recordings, path):
         "cpu": tables.ratios(compared, lambda result: result.cpu_ms),
         "ate": tables.ratios(compared, lambda result: result.ate),
         "memory": tables.ratios(compared, lambda result: result.peak_mib),
+        "stages": tables.stages(compared),
         "settings": tables.settings(),
         "absolutes": tables.absolutes(compared),
         "notes": (HERE / "notes.md").read_text().strip(),

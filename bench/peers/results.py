@@ -36,6 +36,16 @@ class Result:
         """Share of the machine's CPU time that other processes had during the run, percent."""
         return 100.0 * self.record["others"]
 
+    @property
+    def stages(self):
+        """Mean milliseconds of each stage of ours, empty when they were not kept."""
+        return self.record.get("stages", {}).get("mean_ms", {})
+
+    @property
+    def slow_ms(self):
+        """What all stages of 99.9 % of our scans stay below."""
+        return self.record.get("stages", {}).get("slow_ms", math.nan)
+
     def error(self, *keys):
         value = self.record["errors"]
         for key in keys:

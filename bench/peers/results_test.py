@@ -2,12 +2,15 @@
 """Run with: build/peers/venv/bin/python -m unittest discover bench/peers -p '*_test.py'"""
 
 import math
+import pathlib
+import tempfile
 import unittest
 
 import goals
 import inputs
+import stages
 import tables
-from results import Compared
+from results import Compared, Result
 
 
 class MadeStore:
@@ -62,6 +65,23 @@ class Goals(unittest.TestCase):
         self.assertEqual(
             self.words(ate=(0.4, 0.5, 0.3), cpu=(9.0, 20.0, 100.0)), ["**missed**"] * 3
         )
+
+
+class Stages(unittest.TestCase):
+    def test_are_means_and_the_slowest_but_one_in_a_thousand(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "scans.csv"
+            header = ",".join(f"{stage}_ms" for stage in stages.STAGES)
+            rows = [f"1,1,1,1,1,{i}" for i in range(2000)]
+            path.write_text("\n".join(["delay_ms," + header, *(f"9,{row}" for row in rows)]))
+            run = Result({"stages": stages.of_run(path)})
+        self.assertEqual(run.stages["mapping"], 1.0)
+        self.assertEqual(run.stages["loops"], 999.5)
+        self.assertEqual(run.slow_ms, 5 + 1998)
+
+    def test_of_older_runs_are_not_known(self):
+        self.assertEqual(Result({}).stages, {})
+        self.assertTrue(math.isnan(Result({}).slow_ms))
 
 
 if __name__ == "__main__":

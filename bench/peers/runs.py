@@ -14,6 +14,7 @@ import numpy as np
 import environment
 import measure
 import program
+import stages
 import trajectory
 from systems import OURS, PEERS, options
 
@@ -144,6 +145,8 @@ def run(store, recording, scans, system, threads, scratch):
         "start_cpu_seconds": process["start_cpu_seconds"],
         "errors": errors(store.truth(recording), poses, scratch),
     }
+    if system == OURS:
+        record["stages"] = stages.of_run(output / "scans.csv")
     (kept / RECORD).write_text(json.dumps(record, indent=2) + "\n")
 
 

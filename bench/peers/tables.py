@@ -4,6 +4,7 @@
 import math
 
 from markdown_page import fixed, table
+from stages import STAGES
 from systems import OURS, PEERS, SYSTEMS, TITLES
 
 
@@ -52,6 +53,17 @@ def absolutes(compared):
             parts.append(f"### `{one.name}`: {scans} scans, {one.recording.rings} rings")
             parts.append(absolute(one))
     return "\n\n".join(parts)
+
+
+def stages(compared):
+    """Of ours; the rest of the CPU time is for reading and writing."""
+    rows = []
+    for one in compared:
+        if one.ours and one.ours.stages:
+            means = [one.ours.stages[stage] for stage in STAGES]
+            rest = max(one.ours.cpu_ms - sum(means), 0.0)
+            rows.append([f"`{one.name}`", *fixed((*means, rest, one.ours.slow_ms), 1)])
+    return table(["input", *STAGES, "read, write", "99.9 % of the scans"], rows)
 
 
 def settings():
