@@ -19,10 +19,13 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-Scan shuffled(const Scan& scan, unsigned seed) {
+std::vector<std::size_t> numbers(const Scan& scan) {
   std::vector<std::size_t> order(scan.size());
   std::iota(order.begin(), order.end(), 0);
-  std::shuffle(order.begin(), order.end(), std::mt19937(seed));
+  return order;
+}
+
+Scan in_order(const Scan& scan, const std::vector<std::size_t>& order) {
   Scan result;
   result.stamp_ns = scan.stamp_ns;
   for (const std::size_t i : order) {
@@ -32,6 +35,12 @@ Scan shuffled(const Scan& scan, unsigned seed) {
     if (!scan.offset_ns.empty()) result.offset_ns.push_back(scan.offset_ns[i]);
   }
   return result;
+}
+
+Scan shuffled(const Scan& scan, unsigned seed) {
+  std::vector<std::size_t> order = numbers(scan);
+  std::shuffle(order.begin(), order.end(), std::mt19937(seed));
+  return in_order(scan, order);
 }
 
 void add_point(Scan& scan, const Vector3f& point, std::uint16_t ring, std::int32_t offset_ns) {
@@ -77,6 +86,40 @@ TEST(RangeImage, EveryAttributeFollowsItsPoint) {
                      image.row_begin.begin() - 1;
     EXPECT_EQ(row, numbered.ring[i]);
   }
+}
+
+// Sweeps that turn either way, begin anywhere, have a few points late, or no order at all.
+TEST(RangeImage, TheOrderOfThePointsInTheScanDoesNotMatter) {
+  const Scan scan = numbered_sweep();
+  const SensorModel sensor = made_sensor(900);
+  const RangeImage expected = project(scan, sensor);
+  std::vector<std::size_t> backwards = numbers(scan);
+  std::ranges::reverse(backwards);
+  std::vector<std::size_t> begun_elsewhere = backwards;
+  std::ranges::rotate(begun_elsewhere, begun_elsewhere.begin() + begun_elsewhere.size() / 3);
+  std::vector<std::size_t> some_late = numbers(scan);
+  for (std::size_t i = 0; i + 100 < some_late.size(); i += 500)
+    std::swap(some_late[i], some_late[i + 99]);
+  for (const Scan& other : {in_order(scan, backwards), in_order(scan, begun_elsewhere),
+                            in_order(scan, some_late), shuffled(scan, 3)}) {
+    const RangeImage image = project(other, sensor);
+    EXPECT_EQ(image.points, expected.points);
+    EXPECT_EQ(image.intensity, expected.intensity);
+    EXPECT_EQ(image.age, expected.age);
+    EXPECT_EQ(image.column, expected.column);
+    EXPECT_EQ(image.row_begin, expected.row_begin);
+    EXPECT_EQ(image.pixels, expected.pixels);
+  }
+}
+
+TEST(RangeImage, APointStraightBackIsTheFirstOfItsRow) {
+  Scan scan;
+  for (const float y : {1.0f, 0.0f, -1.0f}) add_point(scan, {-5.0f, y, 0.0f}, 0, 0);
+  for (const float y : {1.0f, -1.0f}) add_point(scan, {5.0f, y, 1.0f}, 1, 0);
+  const RangeImage image = project(scan, made_sensor(900));
+  ASSERT_EQ(image.size(), 5U);
+  EXPECT_EQ(image.intensity, (std::vector<float>{1, 2, 0, 4, 3}));
+  EXPECT_EQ(image.column[0], 0);
 }
 
 TEST(RangeImage, PointsThatAreNotFiniteTooNearOrTooFarGoWithAllTheirAttributes) {

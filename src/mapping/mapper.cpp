@@ -19,6 +19,8 @@ constexpr double kMinScale = 1.0;
 constexpr double kMaxScale = 20.0;
 // The spacing of the matched points, as a share of the setting, in the smallest spaces.
 constexpr double kLeastSpacing = 0.125;
+// Associations end with the one that moves the pose by less, m and rad.
+constexpr double kSettled = 5e-4;
 // The map is searched for voxels out of reach after this share of its radius has been driven.
 constexpr double kEvictionShare = 0.2;
 
@@ -176,7 +178,7 @@ MapMatch Mapper::refine(const Features& features, const ScanGuess& guess) {
     twist += change;
     move_on(correspondences, change);
     match.iterations += result.iterations;
-    if (result.step < kConvergedStep) break;
+    if (result.step < kSettled) break;
   }
   NormalEquations<12> solution =
       sweep_normal_equations(correspondences, pose, Vector6::Zero(), scale);

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
-#include <utility>
+#include <span>
 
 #include "core/pose.hpp"
 #include "segmentation/azimuth.hpp"
@@ -66,54 +66,97 @@ float time_of_azimuth(float azimuth, const SensorModel& sensor) {
   return (turns - std::floor(turns)) * static_cast<float>(sensor.period);
 }
 
-// The pixel of each point, kNone for points that are left out.
-constexpr std::uint32_t kNone = 0xffffffff;
-std::vector<std::uint32_t> pixels_of_points(const std::vector<std::uint8_t>& usable,
-                                            const std::vector<std::int16_t>& row,
-                                            const std::vector<float>& azimuth, int columns) {
-  std::vector<std::uint32_t> pixel(azimuth.size(), kNone);
+// The column of each point, kNone for points that are left out. A point exactly behind the sensor
+// is at -pi and in the first column.
+constexpr std::uint16_t kNone = 0xffff;
+std::vector<std::uint16_t> columns_of_points(const std::vector<std::uint8_t>& usable,
+                                             const std::vector<std::int16_t>& row, int columns,
+                                             std::vector<float>& azimuth) {
+  std::vector<std::uint16_t> result(azimuth.size(), kNone);
   const float columns_per_radian = columns / (2.0f * std::numbers::pi_v<float>);
   for (std::size_t i = 0; i < azimuth.size(); ++i) {
     if (!usable[i] || row[i] < 0) continue;
-    int column = static_cast<int>((azimuth[i] + std::numbers::pi_v<float>)*columns_per_radian);
-    if (column >= columns) column -= columns;
-    pixel[i] = static_cast<std::uint32_t>(row[i]) * columns + column;
+    const auto column =
+        static_cast<int>((azimuth[i] + std::numbers::pi_v<float>)*columns_per_radian);
+    if (column >= columns) azimuth[i] = -std::numbers::pi_v<float>;
+    result[i] = static_cast<std::uint16_t>(column < columns ? column : 0);
   }
-  return pixel;
+  return result;
 }
 
-// Where in the image each point goes that has a pixel: pixel by pixel, by azimuth within one.
-// Fills `row_begin`.
-std::vector<std::uint32_t> places_of_points(const std::vector<std::uint32_t>& pixel,
-                                            const std::vector<float>& azimuth, RangeImage& image) {
-  // Counting sort. The counts stand two places up: their sums are the beginnings of the pixels one
-  // place up, and placing the points moves each to the end of its pixel.
-  const std::size_t pixels = static_cast<std::size_t>(image.rows) * image.columns;
-  std::vector<std::uint32_t> begin(pixels + 2, 0);
-  for (const std::uint32_t p : pixel)
-    if (p != kNone) ++begin[p + 2];
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  std::vector<std::uint32_t> order(begin.back());
-  for (std::size_t i = 0; i < pixel.size(); ++i)
-    if (pixel[i] != kNone) order[begin[pixel[i] + 1]++] = static_cast<std::uint32_t>(i);
-  for (std::size_t p = 0; p < pixels; ++p)
-    if (begin[p + 1] - begin[p] > 1)
-      std::sort(order.begin() + begin[p], order.begin() + begin[p + 1],
-                [&](std::uint32_t a, std::uint32_t b) {
-                  return std::pair(azimuth[a], a) < std::pair(azimuth[b], b);
-                });
+struct Direction {
+  float azimuth;
+  std::uint32_t point;  // of the scan
 
-  image.row_begin.resize(image.rows + 1);
-  for (int r = 0; r <= image.rows; ++r)
-    image.row_begin[r] = begin[static_cast<std::size_t>(r) * image.columns];
-  std::vector<std::uint32_t> place(pixel.size());
-  for (std::size_t k = 0; k < order.size(); ++k) place[order[k]] = static_cast<std::uint32_t>(k);
+  bool operator<(const Direction& other) const {
+    return azimuth < other.azimuth || (azimuth == other.azimuth && point < other.point);
+  }
+};
+
+// A sensor turns one way: but for where its sweep begins and a few points that changed places, the
+// directions of a row are in order already, or in the opposite one.
+void sort_row(std::span<Direction> row) {
+  if (row.size() < 2) return;
+  std::size_t falling = 0;
+  for (std::size_t k = 1; k < row.size(); ++k) falling += row[k] < row[k - 1];
+  if (2 * falling > row.size()) std::ranges::reverse(row);
+  const auto seam = std::ranges::adjacent_find(row, [](const Direction& a, const Direction& b) {
+    return b.azimuth < a.azimuth - std::numbers::pi_v<float>;
+  });
+  if (seam != row.end()) std::ranges::rotate(row, seam + 1);
+  // Insertion sort, as long as it is the faster one.
+  std::size_t moves = 0;
+  for (std::size_t k = 1; k < row.size(); ++k) {
+    const Direction direction = row[k];
+    std::size_t place = k;
+    for (; place > 0 && direction < row[place - 1]; --place) row[place] = row[place - 1];
+    row[place] = direction;
+    moves += k - place;
+    if (moves > 8 * row.size()) {
+      std::sort(row.begin(), row.end());
+      return;
+    }
+  }
+}
+
+// Where in the image each point goes that has a column: row by row, by azimuth within one. Fills
+// `row_begin`.
+std::vector<std::uint32_t> places_of_points(const std::vector<std::uint16_t>& column,
+                                            const std::vector<std::int16_t>& row,
+                                            const std::vector<float>& azimuth, RangeImage& image) {
+  image.row_begin.assign(image.rows + 1, 0);
+  for (std::size_t i = 0; i < column.size(); ++i)
+    if (column[i] != kNone) ++image.row_begin[row[i] + 1];
+  std::partial_sum(image.row_begin.begin(), image.row_begin.end(), image.row_begin.begin());
+  std::vector<std::uint32_t> end = image.row_begin;
+  std::vector<Direction> order(image.row_begin.back());
+  for (std::size_t i = 0; i < column.size(); ++i)
+    if (column[i] != kNone) order[end[row[i]]++] = {azimuth[i], static_cast<std::uint32_t>(i)};
+
+  std::vector<std::uint32_t> place(column.size());
+  for (int r = 0; r < image.rows; ++r)
+    sort_row(std::span(order).subspan(image.row_begin[r], end[r] - image.row_begin[r]));
+  for (std::size_t k = 0; k < order.size(); ++k)
+    place[order[k].point] = static_cast<std::uint32_t>(k);
   return place;
+}
+
+// The nearest point of each pixel.
+void fill_pixels(RangeImage& image) {
+  image.pixels.assign(static_cast<std::size_t>(image.rows) * image.columns, -1);
+  for (int row = 0; row < image.rows; ++row) {
+    std::int32_t* pixels = image.pixels.data() + static_cast<std::size_t>(row) * image.columns;
+    for (std::uint32_t k = image.row_begin[row]; k < image.row_begin[row + 1]; ++k) {
+      std::int32_t& nearest = pixels[image.column[k]];
+      if (nearest < 0 || image.range[k] < image.range[nearest])
+        nearest = static_cast<std::int32_t>(k);
+    }
+  }
 }
 
 // Seconds from the middle of the sweep to each point of the scan, empty when they are not known or
 // gone. Fills `stamp_ns` and `reference_ns`.
-std::vector<float> ages(const Scan& scan, const std::vector<std::uint32_t>& pixel,
+std::vector<float> ages(const Scan& scan, const std::vector<std::uint16_t>& column,
                         const std::vector<float>& azimuth, const SensorModel& sensor,
                         RangeImage& image) {
   image.stamp_ns = image.reference_ns = scan.stamp_ns;
@@ -122,19 +165,19 @@ std::vector<float> ages(const Scan& scan, const std::vector<std::uint32_t>& pixe
   if (!scan.offset_ns.empty()) {
     auto first = std::numeric_limits<std::int64_t>::max();
     auto last = std::numeric_limits<std::int64_t>::min();
-    for (std::size_t i = 0; i < pixel.size(); ++i) {
-      if (pixel[i] == kNone) continue;
+    for (std::size_t i = 0; i < column.size(); ++i) {
+      if (column[i] == kNone) continue;
       first = std::min<std::int64_t>(first, scan.offset_ns[i]);
       last = std::max<std::int64_t>(last, scan.offset_ns[i]);
     }
     const std::int64_t middle = first + (last - first) / 2;
     image.reference_ns += middle;
-    age.resize(pixel.size());
+    age.resize(column.size());
     for (std::size_t i = 0; i < age.size(); ++i)
       age[i] = static_cast<float>(1e-9 * static_cast<double>(scan.offset_ns[i] - middle));
   } else if (sensor.times_from_azimuth) {
     image.reference_ns += std::llround(0.5e9 * sensor.period);
-    age.resize(pixel.size());
+    age.resize(column.size());
     for (std::size_t i = 0; i < age.size(); ++i)
       age[i] = time_of_azimuth(azimuth[i], sensor) - 0.5f * static_cast<float>(sensor.period);
   }
@@ -160,22 +203,21 @@ RangeImage project(const Scan& scan, const SensorModel& sensor) {
   const std::vector<float> range = ranges(scan);
   const std::vector<std::uint8_t> usable = usable_points(range, sensor);
   const std::vector<std::int16_t> row = assign_rows(scan, usable, sensor);
-  const std::vector<float> azimuth = azimuths(scan);
-  const std::vector<std::uint32_t> pixel = pixels_of_points(usable, row, azimuth, sensor.columns);
+  std::vector<float> azimuth = azimuths(scan);
+  const std::vector<std::uint16_t> column = columns_of_points(usable, row, sensor.columns, azimuth);
 
   RangeImage image;
   image.rows = sensor.rows();
   image.columns = sensor.columns;
-  const std::vector<std::uint32_t> place = places_of_points(pixel, azimuth, image);
-  const std::vector<float> age = ages(scan, pixel, azimuth, sensor, image);
+  const std::vector<std::uint32_t> place = places_of_points(column, row, azimuth, image);
+  const std::vector<float> age = ages(scan, column, azimuth, sensor, image);
 
   const std::size_t count = image.row_begin.back();
   image.points.resize(count);
   image.range.resize(count);
-  image.intensity.assign(count, 0.0f);
-  image.age.assign(count, 0.0f);
+  image.intensity.resize(count);
+  image.age.resize(count);
   image.column.resize(count);
-  image.pixels.assign(static_cast<std::size_t>(image.rows) * image.columns, -1);
 
   std::vector<Raise> raise;
   for (int r = 0; r < image.rows; ++r)
@@ -186,20 +228,17 @@ RangeImage project(const Scan& scan, const SensorModel& sensor) {
   const bool intensities = !scan.intensity.empty();
   // In the order of the scan: a sensor goes through all rows again and again, so that the points of
   // each row are written one after the other.
-  for (std::size_t i = 0; i < pixel.size(); ++i) {
-    if (pixel[i] == kNone) continue;
+  for (std::size_t i = 0; i < column.size(); ++i) {
+    if (column[i] == kNone) continue;
     const std::uint32_t k = place[i];
     const Eigen::Vector3f point = raise[row[i]](scan.points[i], range[i]);
     image.points[k] = tilted ? R_level_lidar * point : point;
     image.range[k] = range[i];
-    image.column[k] = static_cast<std::uint16_t>(pixel[i] - row[i] * image.columns);
+    image.column[k] = column[i];
     if (intensities) image.intensity[k] = scan.intensity[i];
     if (!age.empty()) image.age[k] = age[i];
-    std::int32_t& nearest = image.pixels[pixel[i]];
-    const auto here = static_cast<std::int32_t>(k);
-    if (nearest < 0 || std::pair(range[i], here) < std::pair(image.range[nearest], nearest))
-      nearest = here;
   }
+  fill_pixels(image);
   image.usual_step = usual_step(image);
   return image;
 }
