@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <random>
@@ -43,6 +44,25 @@ TEST(RowAssignment, ARingFieldInAnyNumberingFindsTheRows) {
     Scan renumbered = scan;
     for (std::uint16_t& ring : renumbered.ring) ring = number(ring);
     expect_rows(rows_of(renumbered, sensor), scan.ring);
+  }
+}
+
+// Many points, of which not each is looked at: ring after ring, column by column.
+TEST(RowAssignment, RingsThatTakeTurnsAreAllFoundWhateverTheirNumber) {
+  for (const int rows : {14, 16, 21, 64}) {
+    SensorModel sensor;
+    sensor.elevation_deg.clear();
+    for (int row = 0; row < rows; ++row) sensor.elevation_deg.push_back(row - 0.5 * rows);
+    Scan scan;
+    for (int i = 0; i < 30'000; ++i) {
+      const double elevation = radians(sensor.elevation_deg[i % rows] + 0.2);
+      const double azimuth = 1e-4 * i;
+      scan.points.push_back(Eigen::Vector3d(10.0 * std::cos(azimuth), 10.0 * std::sin(azimuth),
+                                            10.0 * std::tan(elevation))
+                                .cast<float>());
+      scan.ring.push_back(static_cast<std::uint16_t>(i % rows));
+    }
+    expect_rows(rows_of(scan, sensor), scan.ring);
   }
 }
 

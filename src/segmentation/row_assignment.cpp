@@ -41,15 +41,13 @@ Groups groups_of_storage_order(const Scan& scan, const std::vector<std::uint8_t>
   return groups;
 }
 
-// Mean elevation of each group, rad; NaN for an empty one. Where there are many points a part of
-// them tells it: the stride is prime, so that it passes over no ring where they take turns.
-std::vector<double> mean_elevation(const Scan& scan, const std::vector<std::uint8_t>& usable,
-                                   const Groups& groups) {
-  constexpr std::size_t kManyPoints = 20'000;
-  const std::size_t stride = scan.size() < kManyPoints ? 1 : 7;
+// Mean elevation of each group, rad, of every n-th point; NaN for a group without any.
+std::vector<double> mean_elevation_of_every(std::size_t n, const Scan& scan,
+                                            const std::vector<std::uint8_t>& usable,
+                                            const Groups& groups) {
   std::vector<double> sum(groups.count, 0.0);
   std::vector<int> count(groups.count, 0);
-  for (std::size_t i = 0; i < scan.size(); i += stride) {
+  for (std::size_t i = 0; i < scan.size(); i += n) {
     if (!usable[i] || groups.of_point[i] < 0) continue;
     const Eigen::Vector3f& p = scan.points[i];
     const float across = std::sqrt(p.x() * p.x() + p.y() * p.y());
@@ -62,6 +60,17 @@ std::vector<double> mean_elevation(const Scan& scan, const std::vector<std::uint
     mean[g] =
         count[g] > 0 ? std::atan(sum[g] / count[g]) : std::numeric_limits<double>::quiet_NaN();
   return mean;
+}
+
+// A part of many points tells it as well, unless it passes over a group.
+std::vector<double> mean_elevation(const Scan& scan, const std::vector<std::uint8_t>& usable,
+                                   const Groups& groups) {
+  constexpr std::size_t kManyPoints = 20'000;
+  if (scan.size() >= kManyPoints) {
+    const std::vector<double> mean = mean_elevation_of_every(7, scan, usable, groups);
+    if (std::ranges::none_of(mean, [](double m) { return std::isnan(m); })) return mean;
+  }
+  return mean_elevation_of_every(1, scan, usable, groups);
 }
 
 // Rings lie one after another in the file, top ring first, when there are as many of them as beams

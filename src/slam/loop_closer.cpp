@@ -260,6 +260,37 @@ bool LoopCloser::add_to(PoseGraph& graph, const PoseEdge& loop, bool joins) {
   return false;
 }
 
+LoopCloser::Outcome LoopCloser::judge(LoopReport& report, const KeyFrames& key_frames,
+                                      Pieces& pieces, PoseGraph& graph) {
+  const LoopCandidate& candidate = report.candidate;
+  const double now = key_frames.travelled(candidate.query);
+  const bool joins = !pieces.joined(candidate.match, candidate.query);
+  const auto nothing_new = [&](Effort effort) {
+    report.verification = verify(candidate, effort, key_frames, pieces, graph);
+    return !joins && report.verification.verdict == Verdict::accepted &&
+           tells_nothing_new(edge_of(report), now, graph);
+  };
+  const bool expected = !joins && now - last_loop_travelled_ < kTrusted;
+  if ((expected && nothing_new(Effort::glance)) || nothing_new(Effort::full))
+    return Outcome::nothing_new;
+  if (report.verification.verdict != Verdict::accepted) return Outcome::refused;
+  report.added = add_to(graph, edge_of(report), joins);
+  if (!report.added) {
+    report.verification.verdict = Verdict::contradicted;
+    return Outcome::refused;
+  }
+  if (joins) pieces.join(candidate.match, candidate.query);
+  return Outcome::added;
+}
+
+// After a loop that told nothing new: twice as long as the time before, longest where many loops
+// end.
+double LoopCloser::longer_pause(int match, const PoseGraph& graph) const {
+  const double share = std::floor(ties(match, graph) / kWellTied);
+  const double longest = (1.0 + std::min(share, kMostShares)) * kLongestPause;
+  return std::max(settings_.spacing, std::min(2.0 * pause_, longest));
+}
+
 std::vector<LoopReport> LoopCloser::find(const KeyFrames& key_frames, int eligible,
                                          const ScanContext& context, Pieces& pieces,
                                          PoseGraph& graph) {
@@ -269,33 +300,14 @@ std::vector<LoopReport> LoopCloser::find(const KeyFrames& key_frames, int eligib
   if (pauses && pieces.maps() == 1) return reports;
 
   for (const LoopCandidate& candidate : candidates(key_frames, eligible, context, pieces, graph)) {
-    const bool joins = !pieces.joined(candidate.match, candidate.query);
-    if (pauses && !joins) continue;
+    if (pauses && pieces.joined(candidate.match, candidate.query)) continue;
     LoopReport& report = reports.emplace_back();
     report.candidate = candidate;
-    LoopVerification& verification = report.verification;
-    const auto nothing_new = [&](Effort effort) {
-      verification = verify(candidate, effort, key_frames, pieces, graph);
-      return !joins && verification.verdict == Verdict::accepted &&
-             tells_nothing_new(edge_of(report), now, graph);
-    };
-    const bool expected = !joins && now - last_loop_travelled_ < kTrusted;
-    if ((expected && nothing_new(Effort::glance)) || nothing_new(Effort::full)) {
-      const double share = std::floor(ties(candidate.match, graph) / kWellTied);
-      const double longest = (1.0 + std::min(share, kMostShares)) * kLongestPause;
-      last_loop_travelled_ = now;
-      pause(now, std::max(settings_.spacing, std::min(2.0 * pause_, longest)));
-      return reports;
-    }
-    if (verification.verdict != Verdict::accepted) continue;
-    report.added = add_to(graph, edge_of(report), joins);
-    if (!report.added) {
-      verification.verdict = Verdict::contradicted;
-      continue;
-    }
-    if (joins) pieces.join(candidate.match, candidate.query);
+    const Outcome outcome = judge(report, key_frames, pieces, graph);
+    if (outcome == Outcome::refused) continue;
     last_loop_travelled_ = now;
-    pause(now, settings_.spacing);
+    pause(now,
+          outcome == Outcome::added ? settings_.spacing : longer_pause(candidate.match, graph));
     return reports;  // one loop for each key frame
   }
   const bool tried = std::ranges::any_of(

@@ -52,6 +52,11 @@ class LoopCloser {
                           const KeyFrames& key_frames, const Pieces& pieces,
                           const PoseGraph& graph) const;
 
+  // What came of a candidate.
+  enum class Outcome { refused, nothing_new, added };
+  Outcome judge(LoopReport& report, const KeyFrames& key_frames, Pieces& pieces, PoseGraph& graph);
+  double longer_pause(int match, const PoseGraph& graph) const;
+
   std::vector<LoopCandidate> near_newest(int eligible, const PoseGraph& graph,
                                          const RadiusSearchSettings& settings) const;
   bool place_is_known(double travelled, int eligible, const PoseGraph& graph) const;
