@@ -39,8 +39,6 @@ def decompress(kind: str, data: bytes | memoryview, size: int = LARGEST) -> byte
     if size > LARGEST:
         raise InputError(f"it promises {size} bytes, {LARGEST} are allowed")
     try:
-        if kind == "zstd":  # memory for more than there is takes as long as unpacking
-            size = min(size, zstd.get_frame_info(data).decompressed_size or size)
         return _DECOMPRESSORS[kind]().decompress(data, max_length=size)
     except (OSError, EOFError, RuntimeError, ValueError, zstd.ZstdError) as error:
         raise InputError(f"it cannot be decompressed ({error})") from error
