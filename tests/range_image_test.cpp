@@ -58,6 +58,16 @@ Scan numbered_sweep() {
   return scan;
 }
 
+void expect_same(const RangeImage& image, const RangeImage& expected) {
+  EXPECT_EQ(image.points, expected.points);
+  EXPECT_EQ(image.intensity, expected.intensity);
+  EXPECT_EQ(image.age, expected.age);
+  EXPECT_EQ(image.column, expected.column);
+  EXPECT_EQ(image.row_begin, expected.row_begin);
+  EXPECT_EQ(image.pixels, expected.pixels);
+  EXPECT_EQ(image.reference_ns, expected.reference_ns);
+}
+
 TEST(FastAtan2, IsTheArcusTangentToAHundredthOfAColumn) {
   for (int k = -3600; k <= 3600; ++k) {
     for (const double radius : {1e-3, 1.0, 120.0}) {
@@ -101,15 +111,8 @@ TEST(RangeImage, TheOrderOfThePointsInTheScanDoesNotMatter) {
   for (std::size_t i = 0; i + 100 < some_late.size(); i += 500)
     std::swap(some_late[i], some_late[i + 99]);
   for (const Scan& other : {in_order(scan, backwards), in_order(scan, begun_elsewhere),
-                            in_order(scan, some_late), shuffled(scan, 3)}) {
-    const RangeImage image = project(other, sensor);
-    EXPECT_EQ(image.points, expected.points);
-    EXPECT_EQ(image.intensity, expected.intensity);
-    EXPECT_EQ(image.age, expected.age);
-    EXPECT_EQ(image.column, expected.column);
-    EXPECT_EQ(image.row_begin, expected.row_begin);
-    EXPECT_EQ(image.pixels, expected.pixels);
-  }
+                            in_order(scan, some_late), shuffled(scan, 3)})
+    expect_same(project(other, sensor), expected);
 }
 
 TEST(RangeImage, APointStraightBackIsTheFirstOfItsRow) {
@@ -139,14 +142,7 @@ TEST(RangeImage, PointsThatAreNotFiniteTooNearOrTooFarGoWithAllTheirAttributes) 
     mixed.ring.push_back(good.ring[i]);
     mixed.offset_ns.push_back(good.offset_ns[i]);
   }
-  const RangeImage image = project(mixed, sensor);
-  const RangeImage expected = project(good, sensor);
-  EXPECT_EQ(image.points, expected.points);
-  EXPECT_EQ(image.intensity, expected.intensity);
-  EXPECT_EQ(image.age, expected.age);
-  EXPECT_EQ(image.column, expected.column);
-  EXPECT_EQ(image.pixels, expected.pixels);
-  EXPECT_EQ(image.reference_ns, expected.reference_ns);
+  expect_same(project(mixed, sensor), project(good, sensor));
 }
 
 TEST(RangeImage, RowsAscendInAzimuthAndPixelsAgreeWithThem) {

@@ -56,12 +56,12 @@ def absolutes(compared):
 
 
 def stages(compared):
-    """Of ours; the rest of the CPU time is for reading and writing."""
+    """Of ours, by the clock; the rest of the time is for reading and writing."""
     rows = []
     for one in compared:
         if one.ours and one.ours.stages:
             means = [one.ours.stages[stage] for stage in STAGES]
-            rest = max(one.ours.cpu_ms - sum(means), 0.0)
+            rest = one.ours.wall_ms - sum(means)
             rows.append([f"`{one.name}`", *fixed((*means, rest, one.ours.slow_ms), 1)])
     return table(["input", *STAGES, "read, write", "99.9 % of the scans"], rows)
 
