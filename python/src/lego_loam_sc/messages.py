@@ -28,6 +28,7 @@ def decode(type_name: str, encoding: str, data: bytes | memoryview) -> Any:
     store = _typestore(encoding)
     if data[:4] == ZSTD_MAGIC:  # no message begins like this: rosbag2 compressed it
         data = decompress("zstd", data)
+    data = memoryview(data)  # rosbags would copy bytes
     try:
         if encoding == "ros1":
             return store.deserialize_ros1(data, type_name)
