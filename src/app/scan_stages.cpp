@@ -2,10 +2,11 @@
 #include "app/scan_stages.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "features/feature_row.hpp"
 #include "features/roughness.hpp"
-#include "segmentation/ground.hpp"
+#include "slam/front_end.hpp"
 
 namespace lego_loam_sc {
 namespace {
@@ -38,15 +39,13 @@ void measure_roughness(const SensorModel& sensor, const FeatureSettings& setting
 
 }  // namespace
 
-ScanStages make_stages(const Scan& scan, const SensorModel& sensor, const Settings& settings) {
+ScanStages make_stages(const Scan& scan, SensorModel sensor, const Settings& settings) {
   ScanStages stages;
-  stages.image = project(scan, sensor);
   stages.sensor_height = sensor.height;
-  if (sensor.height == 0.0)
-    stages.sensor_height =
-        estimate_sensor_height(stages.image, sensor, settings.segmentation).value_or(0.0);
-  stages.segmentation = segment(stages.image, sensor, stages.sensor_height, settings.segmentation);
-  stages.features = extract_features(stages.image, stages.segmentation, sensor, settings.features);
+  FrontEnd front = run_front_end(scan, sensor, stages.sensor_height, settings, true);
+  stages.image = std::move(front.image);
+  stages.segmentation = std::move(front.segmentation);
+  stages.features = std::move(front.features);
   measure_roughness(sensor, settings.features, stages);
 
   stages.feature_set.assign(stages.image.size(), FeatureSet::none);

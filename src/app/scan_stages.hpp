@@ -28,7 +28,8 @@ struct ScanStages {
   std::vector<FeatureSet> feature_set;
 };
 
-/// The scan is taken as if the sensor stood still.
-ScanStages make_stages(const Scan& scan, const SensorModel& sensor, const Settings& settings);
+/// The scan is taken as if the sensor stood still. Its points are turned level, as in a run, when
+/// they show that the sensor is tilted.
+ScanStages make_stages(const Scan& scan, SensorModel sensor, const Settings& settings);
 
 }  // namespace lego_loam_sc

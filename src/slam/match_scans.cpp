@@ -3,11 +3,7 @@
 
 #include <array>
 
-#include "features/features.hpp"
-#include "segmentation/ground.hpp"
-#include "segmentation/mounting.hpp"
-#include "segmentation/range_image.hpp"
-#include "segmentation/segmentation.hpp"
+#include "slam/front_end.hpp"
 #include "slam/make_key_frame.hpp"
 
 namespace lego_loam_sc {
@@ -21,15 +17,12 @@ struct Described {
 };
 
 Described describe(const Scan& scan, SensorModel sensor, const Settings& settings) {
-  RangeImage image = project(scan, sensor);
-  if (estimate_tilt(image, sensor)) image = project(scan, sensor);
-  if (sensor.height == 0.0)
-    sensor.height = estimate_sensor_height(image, sensor, settings.segmentation).value_or(0.0);
-  const Segmentation segmentation = segment(image, sensor, sensor.height, settings.segmentation);
-  const Features features = extract_features(image, segmentation, sensor, settings.features);
+  double height = sensor.height;
+  const auto [image, segmentation, features, milliseconds] =
+      run_front_end(scan, sensor, height, settings, true);
   return {make_key_frame(image, segmentation, features, image.points, 0.0,
                          settings.key_frames.point_spacing),
-          make_scan_context(image.points, sensor.height, settings.loop.scan_context),
+          make_scan_context(image.points, height, settings.loop.scan_context),
           R_base_lidar(sensor)};
 }
 

@@ -3,13 +3,9 @@
 #include <cmath>
 
 #include "core/time.hpp"
-#include "features/features.hpp"
 #include "odometry/deskew.hpp"
-#include "segmentation/ground.hpp"
-#include "segmentation/mounting.hpp"
-#include "segmentation/range_image.hpp"
-#include "segmentation/segmentation.hpp"
 #include "slam/edge_covariance.hpp"
+#include "slam/front_end.hpp"
 #include "slam/make_key_frame.hpp"
 #include "slam/slam_state.hpp"
 #include "slam/stage_timer.hpp"
@@ -42,24 +38,15 @@ ScanReport Slam::State::process(const Scan& scan) {
     return report;
   }
   report.stamp_jump_s = time->jump_s;
-  StageTimer timer(report.milliseconds);
 
-  timer.start(Stage::projection);
-  RangeImage image = project(scan, sensor);
-  if (mapper.empty() && estimate_tilt(image, sensor)) image = project(scan, sensor);
+  auto [image, segmentation, features, milliseconds] =
+      run_front_end(scan, sensor, height, settings, mapper.empty());
   image.reference_ns += time->time_ns - scan.stamp_ns;
+  report.milliseconds = milliseconds;
   report.points = image.size();
-  if (height == 0.0)
-    height = estimate_sensor_height(image, sensor, settings.segmentation).value_or(0.0);
-
-  timer.start(Stage::segmentation);
-  const Segmentation segmentation = segment(image, sensor, height, settings.segmentation);
   report.ground_points = segmentation.ground_points;
   report.segment_points = segmentation.segment_points;
   report.clusters = segmentation.clusters;
-
-  timer.start(Stage::features);
-  const Features features = extract_features(image, segmentation, sensor, settings.features);
   report.edges_sharp = features.edges_sharp.size();
   report.planars_flat = features.planars_flat.size();
   report.edges_large = features.edges_large.size();
@@ -79,6 +66,7 @@ ScanReport Slam::State::process(const Scan& scan) {
   if (first)
     previous.T_map_lidar = previous.T_odom_lidar = extrapolate(twist, -(seconds + stamp_age));
 
+  StageTimer timer(report.milliseconds);
   timer.start(Stage::odometry);
   const Motion motion = predict_and_match(features, seconds, report);
 

@@ -9,7 +9,8 @@
 
 namespace lego_loam_sc {
 
-/// Adds the wall time from each start() to the next one, or to its own end, to the stage's entry.
+/// Adds the wall time from each start() to the next one, to stop() or to its own end, to the
+/// stage's entry.
 class StageTimer {
  public:
   explicit StageTimer(std::array<double, kStages>& milliseconds) : milliseconds_(milliseconds) {}
@@ -23,15 +24,15 @@ class StageTimer {
     begin_ = Clock::now();
   }
 
- private:
-  using Clock = std::chrono::steady_clock;
-
   void stop() {
     if (!stage_) return;
     const std::chrono::duration<double, std::milli> passed = Clock::now() - begin_;
     milliseconds_[static_cast<int>(*stage_)] += passed.count();
     stage_.reset();
   }
+
+ private:
+  using Clock = std::chrono::steady_clock;
 
   std::array<double, kStages>& milliseconds_;
   std::optional<Stage> stage_;
