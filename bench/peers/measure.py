@@ -2,9 +2,12 @@
 """One process, alone: CPU time, wall time and memory as the kernel counts them."""
 
 import dataclasses
+import json
 import os
 import pathlib
 import subprocess
+import sys
+import tempfile
 import time
 
 
@@ -32,23 +35,39 @@ def run(command, threads, log):
     """Runs `command` on as many of the machine's cores as it has threads; its output goes to `log`.
 
     Not every peer can be told how many threads to take, but all take no more than the cores that
-    they are given.
+    they are given. A small process starts it: the kernel counts the largest resident set from that
+    of the starting process on.
     """
     cores = sorted(os.sched_getaffinity(0))[:threads]
-    with log.open("w") as output:
-        begin, busy = time.monotonic(), busy_seconds()
-        process = subprocess.Popen(
-            [str(word) for word in command],
+    with log.open("w") as output, tempfile.NamedTemporaryFile() as record:
+        starter = [sys.executable, __file__, record.name, json.dumps(cores)]
+        subprocess.run(
+            [*starter, *(str(word) for word in command)],
             stdin=subprocess.DEVNULL,
             stdout=output,
             stderr=subprocess.STDOUT,
-            preexec_fn=lambda: os.sched_setaffinity(0, cores),
+            check=True,
         )
-        _, status, usage = os.wait4(process.pid, 0)
-        wall, busy = time.monotonic() - begin, busy_seconds() - busy
+        result = json.load(record)
+    if result["code"] != 0:
+        raise ProcessError(f"exit code {result['code']}: {log.read_text()[-2000:].strip()}")
+    return Usage(**result["usage"])
+
+
+def start(record, cores, *command):
+    """The small process: writes the exit code and the usage of `command` to the file `record`."""
+    os.sched_setaffinity(0, json.loads(cores))
+    begin, busy = time.monotonic(), busy_seconds()
+    process = subprocess.Popen(command)
+    _, status, usage = os.wait4(process.pid, 0)
+    wall, busy = time.monotonic() - begin, busy_seconds() - busy
     code = process.returncode = os.waitstatus_to_exitcode(status)
-    if code != 0:
-        raise ProcessError(f"exit code {code}: {log.read_text()[-2000:].strip()}")
     cpu = usage.ru_utime + usage.ru_stime
     others = max(0.0, busy - cpu) / (wall * os.cpu_count())
-    return Usage(cpu, wall, usage.ru_maxrss / 1024, others)
+    result = Usage(cpu, wall, usage.ru_maxrss / 1024, others)
+    text = json.dumps({"code": code, "usage": dataclasses.asdict(result)})
+    pathlib.Path(record).write_text(text)
+
+
+if __name__ == "__main__":
+    start(*sys.argv[1:])
