@@ -24,11 +24,12 @@ std::vector<float> ranges(const Scan& scan) {
 // NaN and infinity fail the comparisons.
 std::vector<std::uint8_t> usable_points(const std::vector<float>& range,
                                         const SensorModel& sensor) {
-  const auto nearest = static_cast<float>(sensor.min_range);
+  const auto nearest =
+      std::max(static_cast<float>(sensor.min_range), std::numeric_limits<float>::denorm_min());
   const auto farthest = static_cast<float>(sensor.max_range);
   std::vector<std::uint8_t> usable(range.size());
   for (std::size_t i = 0; i < range.size(); ++i)
-    usable[i] = (range[i] >= nearest) & (range[i] <= farthest) & (range[i] > 0.0f);
+    usable[i] = range[i] >= nearest && range[i] <= farthest;
   return usable;
 }
 
