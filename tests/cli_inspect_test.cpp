@@ -74,6 +74,23 @@ TEST(Inspect, PrintsTheCountsThatARunFinds) {
   EXPECT_EQ(facts["sensor"], "rs16, 16 rows from -15.0 to 15.0 deg");
 }
 
+TEST(Inspect, LevelsATiltedSensorAsARunDoes) {
+  const Shell shell;
+  shell.must(kSimulate);
+  shell.must(
+      "$P run scans --count 1 -o run && "
+      "sed 's/^mount_pitch_deg: .*/mount_pitch_deg: 15/' run/sensor.yaml >tilted.yaml && "
+      "$P simulate parking --count 1 --sensor tilted.yaml -o tilted");
+  auto told = facts_of(shell.must("$P inspect tilted --sensor tilted.yaml"));
+  EXPECT_EQ(told["tilt"], "roll 0.0, pitch 15.0 deg, from the sensor's file");
+  auto found = facts_of(shell.must("$P inspect tilted --sensor rs16"));
+  EXPECT_TRUE(found["tilt"].ends_with(" deg, estimated")) << found["tilt"];
+  EXPECT_NEAR(std::stod(found["tilt"].substr(found["tilt"].find("pitch ") + 6)), 15.0, 1.0);
+  EXPECT_NEAR(std::stod(found["ground"]), std::stod(told["ground"]), 3.0);
+  auto level = facts_of(shell.must("$P inspect scans"));
+  EXPECT_FALSE(level.contains("tilt"));
+}
+
 TEST(Inspect, ColoursEachStageByWhatItPrints) {
   const Shell shell;
   shell.must(kSimulate);

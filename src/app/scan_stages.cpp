@@ -43,6 +43,8 @@ ScanStages make_stages(const Scan& scan, SensorModel sensor, const Settings& set
   ScanStages stages;
   stages.sensor_height = sensor.height;
   FrontEnd front = run_front_end(scan, sensor, stages.sensor_height, settings, true);
+  stages.mount_roll_deg = sensor.mount_roll_deg;
+  stages.mount_pitch_deg = sensor.mount_pitch_deg;
   stages.image = std::move(front.image);
   stages.segmentation = std::move(front.segmentation);
   stages.features = std::move(front.features);

@@ -20,7 +20,9 @@ enum class FeatureSet : std::uint8_t { none, planar_large, planar_flat, edge_lar
 /// point of the image.
 struct ScanStages {
   RangeImage image;
-  double sensor_height = 0.0;  ///< m; 0 = unknown
+  double sensor_height = 0.0;   ///< m; 0 = unknown
+  double mount_roll_deg = 0.0;  ///< as the model says or as estimated, see SensorModel
+  double mount_pitch_deg = 0.0;
   Segmentation segmentation;
   Features features;
   std::vector<float> roughness;  ///< equation (1); kNoRoughness where it is not defined
