@@ -123,9 +123,9 @@ std::string describe_stages(const Scan& scan, const ScanStages& stages, const Se
                : to_fixed(stages.sensor_height, 2) + " m above the ground" +
                      (sensor.height == 0.0 ? ", estimated" : ", from the sensor's file")) +
           "\n";
-  if (stages.mount_roll_deg != 0.0 || stages.mount_pitch_deg != 0.0)
-    text += "tilt      roll " + to_fixed(stages.mount_roll_deg, 1) + ", pitch " +
-            to_fixed(stages.mount_pitch_deg, 1) + " deg" +
+  if (stages.sensor.tilted())
+    text += "tilt      roll " + to_fixed(stages.sensor.mount_roll_deg, 1) + ", pitch " +
+            to_fixed(stages.sensor.mount_pitch_deg, 1) + " deg" +
             (sensor.tilted() ? ", from the sensor's file" : ", estimated") + "\n";
   text += "ground    " + percent(s.ground_points, points) + " of the points\n";
   text += "clusters  " + number(s.clusters) + " with " + percent(s.segment_points, points) +

@@ -39,12 +39,11 @@ void measure_roughness(const SensorModel& sensor, const FeatureSettings& setting
 
 }  // namespace
 
-ScanStages make_stages(const Scan& scan, SensorModel sensor, const Settings& settings) {
+ScanStages make_stages(const Scan& scan, const SensorModel& sensor, const Settings& settings) {
   ScanStages stages;
+  stages.sensor = sensor;
   stages.sensor_height = sensor.height;
-  FrontEnd front = run_front_end(scan, sensor, stages.sensor_height, settings, true);
-  stages.mount_roll_deg = sensor.mount_roll_deg;
-  stages.mount_pitch_deg = sensor.mount_pitch_deg;
+  FrontEnd front = run_front_end(scan, stages.sensor, stages.sensor_height, settings, true);
   stages.image = std::move(front.image);
   stages.segmentation = std::move(front.segmentation);
   stages.features = std::move(front.features);

@@ -20,9 +20,8 @@ enum class FeatureSet : std::uint8_t { none, planar_large, planar_flat, edge_lar
 /// point of the image.
 struct ScanStages {
   RangeImage image;
-  double sensor_height = 0.0;   ///< m; 0 = unknown
-  double mount_roll_deg = 0.0;  ///< as the model says or as estimated, see SensorModel
-  double mount_pitch_deg = 0.0;
+  SensorModel sensor;          ///< as given, with the tilt that was found
+  double sensor_height = 0.0;  ///< m; 0 = unknown
   Segmentation segmentation;
   Features features;
   std::vector<float> roughness;  ///< equation (1); kNoRoughness where it is not defined
@@ -32,6 +31,6 @@ struct ScanStages {
 
 /// The scan is taken as if the sensor stood still. Its points are turned level, as in a run, when
 /// they show that the sensor is tilted.
-ScanStages make_stages(const Scan& scan, SensorModel sensor, const Settings& settings);
+ScanStages make_stages(const Scan& scan, const SensorModel& sensor, const Settings& settings);
 
 }  // namespace lego_loam_sc
