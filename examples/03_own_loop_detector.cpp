@@ -8,7 +8,7 @@
 #include <array>
 #include <cstdio>
 #include <exception>
-#include <lego_loam_sc/io/recognise_sensor.hpp>
+#include <lego_loam_sc/sensor/recognise_sensor.hpp>
 #include <lego_loam_sc/io/scan_source.hpp>
 #include <lego_loam_sc/slam/slam.hpp>
 #include <optional>

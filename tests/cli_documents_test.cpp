@@ -13,11 +13,11 @@
 #include <vector>
 
 #include "cli_program.hpp"
-#include "core/settings.hpp"
 #include "core/status.hpp"
+#include "core/text.hpp"
 #include "io/settings_yaml.hpp"
-#include "io/text.hpp"
 #include "loop/loop_verifier.hpp"
+#include "slam/settings.hpp"
 
 namespace lego_loam_sc {
 namespace {

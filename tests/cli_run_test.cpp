@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "cli_program.hpp"
+#include "core/text.hpp"
 #include "eval/association.hpp"
 #include "eval/errors.hpp"
 #include "io/bytes.hpp"
 #include "io/pcd.hpp"
 #include "io/ply.hpp"
-#include "io/text.hpp"
 #include "io/trajectory.hpp"
 
 namespace lego_loam_sc {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "odometry/correspondence.hpp"
+#include "registration/correspondence.hpp"
 
 #include <gtest/gtest.h>
 

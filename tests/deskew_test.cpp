@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "odometry/deskew.hpp"
+#include "registration/deskew.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <random>
 #include <vector>
 
+#include "key_frames/make_key_frame.hpp"
 #include "made_scenes.hpp"
-#include "slam/make_key_frame.hpp"
 
 namespace lego_loam_sc {
 namespace {

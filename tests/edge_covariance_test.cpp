@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "slam/edge_covariance.hpp"
+#include "graph/edge_covariance.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
 #include "eval/association.hpp"
 #include "eval/error_report.hpp"
 #include "eval/errors.hpp"
-#include "io/error.hpp"
 
 namespace lego_loam_sc {
 namespace {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "made_scenes.hpp"
-#include "mapping/voxel_filter.hpp"
+#include "map/voxel_filter.hpp"
 
 namespace lego_loam_sc {
 namespace {

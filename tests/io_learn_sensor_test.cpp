@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "io/learn_sensor.hpp"
 #include "io/preset_text.hpp"
-#include "io/recognise_sensor.hpp"
 #include "io/sensor_yaml.hpp"
 #include "io_test_files.hpp"
 #include "made_scenes.hpp"
 #include "preset_name.hpp"
+#include "sensor/learn_sensor.hpp"
+#include "sensor/recognise_sensor.hpp"
 
 namespace lego_loam_sc {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 
 #include "core/pose.hpp"
-#include "io/recognise_sensor.hpp"
 #include "io/sensor_yaml.hpp"
 #include "io_test_files.hpp"
+#include "sensor/recognise_sensor.hpp"
 
 namespace lego_loam_sc {
 namespace {

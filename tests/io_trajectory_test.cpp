@@ -10,12 +10,12 @@
 #include <sstream>
 #include <string>
 
+#include "core/text.hpp"
 #include "io/append_file.hpp"
 #include "io/atomic_file.hpp"
 #include "io/file.hpp"
 #include "io/g2o.hpp"
 #include "io/natural_order.hpp"
-#include "io/text.hpp"
 #include "io/trajectory.hpp"
 #include "io_test_files.hpp"
 

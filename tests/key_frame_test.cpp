@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "loop/key_frame.hpp"
+#include "key_frames/key_frame.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <set>
 #include <vector>
 
+#include "key_frames/make_key_frame.hpp"
 #include "made_scenes.hpp"
-#include "mapping/voxel_table.hpp"
-#include "slam/make_key_frame.hpp"
+#include "map/voxel_table.hpp"
 
 namespace lego_loam_sc {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "loop/key_frames.hpp"
+#include "key_frames/key_frames.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <fstream>
 
+#include "core/error.hpp"
 #include "features/features.hpp"
 #include "io/blob_file.hpp"
-#include "io/error.hpp"
 #include "io_test_files.hpp"
 
 namespace lego_loam_sc {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "odometry/levenberg_marquardt.hpp"
+#include "registration/levenberg_marquardt.hpp"
 
 #include <gtest/gtest.h>
 

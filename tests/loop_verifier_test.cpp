@@ -7,10 +7,10 @@
 #include <random>
 #include <vector>
 
+#include "key_frames/make_key_frame.hpp"
+#include "loop/loop_closer.hpp"
 #include "loop/scan_context.hpp"
 #include "made_scenes.hpp"
-#include "slam/loop_closer.hpp"
-#include "slam/make_key_frame.hpp"
 
 namespace lego_loam_sc {
 namespace {
@@ -173,7 +173,7 @@ TEST(LoopVerifier, NothingToMatchIsNoMatch) {
 struct RoundTrip {
   std::vector<Visit> visits;
   KeyFrames key_frames;
-  Pieces pieces;
+  MapFragments pieces;
   PoseGraph graph{GraphSettings{}};
   std::vector<LoopReport> last_reports;
 };
@@ -239,7 +239,7 @@ TEST(LoopCloser, WhoDrivesTheSameRoundAgainAndAgainIsTiedOnceAndSearchedForSeldo
                            static_cast<std::uint64_t>(300 + k)));
   }
   KeyFrames key_frames;
-  Pieces pieces;
+  MapFragments pieces;
   PoseGraph graph{GraphSettings{}};
   LoopCloser closer({}, {}, kNoise);
   std::vector<int> added(kRounds), verified(kRounds);

@@ -11,11 +11,11 @@
 #include "core/pose.hpp"
 #include "core/scan.hpp"
 #include "core/sensor_model.hpp"
-#include "core/settings.hpp"
 #include "features/features.hpp"
 #include "segmentation/range_image.hpp"
 #include "segmentation/segmentation.hpp"
 #include "sim/random.hpp"
+#include "slam/settings.hpp"
 
 namespace lego_loam_sc {
 

@@ -6,9 +6,9 @@
 #include "io/sensor_yaml.hpp"
 #include "made_scenes.hpp"
 #include "segmentation/ground.hpp"
-#include "slam/front_end.hpp"
 #include "slam/match_scans.hpp"
 #include "slam/slam.hpp"
+#include "tracking/front_end.hpp"
 
 namespace lego_loam_sc {
 namespace {

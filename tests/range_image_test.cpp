@@ -10,8 +10,8 @@
 #include <random>
 #include <vector>
 
+#include "core/azimuth.hpp"
 #include "made_scenes.hpp"
-#include "segmentation/azimuth.hpp"
 
 namespace lego_loam_sc {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "segmentation/row_assignment.hpp"
+#include "sensor/row_assignment.hpp"
 
 #include <gtest/gtest.h>
 

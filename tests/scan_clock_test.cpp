@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "slam/scan_clock.hpp"
+#include "tracking/scan_clock.hpp"
 
 #include <gtest/gtest.h>
 

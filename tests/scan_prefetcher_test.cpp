@@ -12,7 +12,7 @@
 #include <variant>
 
 #include "app/interrupt.hpp"
-#include "io/error.hpp"
+#include "core/error.hpp"
 
 namespace lego_loam_sc {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "slam/stamp_pose.hpp"
+#include "tracking/stamp_pose.hpp"
 
 #include <gtest/gtest.h>
 

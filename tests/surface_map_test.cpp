@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mapping/surface_map.hpp"
+#include "map/surface_map.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,8 +13,8 @@
 #include <tuple>
 #include <vector>
 
-#include "mapping/voxel_filter.hpp"
-#include "mapping/voxel_table.hpp"
+#include "map/voxel_filter.hpp"
+#include "map/voxel_table.hpp"
 
 namespace lego_loam_sc {
 namespace {

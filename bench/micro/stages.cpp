@@ -19,16 +19,16 @@
 
 #include "features/features.hpp"
 #include "graph.hpp"
-#include "io/recognise_sensor.hpp"
 #include "io/scan_source.hpp"
+#include "key_frames/make_key_frame.hpp"
 #include "loop/scan_context.hpp"
 #include "loop/scan_context_index.hpp"
 #include "mapping/mapper.hpp"
-#include "odometry/deskew.hpp"
 #include "odometry/odometry.hpp"
+#include "registration/deskew.hpp"
 #include "segmentation/range_image.hpp"
 #include "segmentation/segmentation.hpp"
-#include "slam/make_key_frame.hpp"
+#include "sensor/recognise_sensor.hpp"
 
 namespace lego_loam_sc {
 namespace {

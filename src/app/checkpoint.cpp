@@ -5,9 +5,9 @@
 #include <string_view>
 #include <utility>
 
+#include "core/error.hpp"
 #include "io/atomic_file.hpp"
 #include "io/bytes.hpp"
-#include "io/error.hpp"
 #include "io/file.hpp"
 
 namespace lego_loam_sc {

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "core/error.hpp"
 #include "eval/association.hpp"
 #include "eval/error_report.hpp"
 #include "eval/errors.hpp"
-#include "io/error.hpp"
 #include "io/trajectory.hpp"
 
 namespace lego_loam_sc {

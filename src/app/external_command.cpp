@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/companion.hpp"
-#include "io/error.hpp"
+#include "core/error.hpp"
 
 namespace lego_loam_sc {
 

@@ -13,11 +13,11 @@
 #include "app/run_folder.hpp"
 #include "app/scan_input.hpp"
 #include "app/stage_files.hpp"
+#include "core/error.hpp"
 #include "core/pose.hpp"
-#include "io/error.hpp"
-#include "io/recognise_sensor.hpp"
+#include "core/text.hpp"
 #include "io/settings_yaml.hpp"
-#include "io/text.hpp"
+#include "sensor/recognise_sensor.hpp"
 
 namespace lego_loam_sc {
 namespace {

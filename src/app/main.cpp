@@ -10,7 +10,7 @@
 
 #include "app/commands.hpp"
 #include "app/external_command.hpp"
-#include "io/error.hpp"
+#include "core/error.hpp"
 
 namespace {
 

@@ -7,7 +7,7 @@
 
 #include "app/commands.hpp"
 #include "app/common_options.hpp"
-#include "io/error.hpp"
+#include "core/error.hpp"
 #include "io/scan_source.hpp"
 #include "io/settings_yaml.hpp"
 #include "slam/match_scans.hpp"

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "core/pose.hpp"
-#include "io/text.hpp"
+#include "core/text.hpp"
 
 namespace lego_loam_sc {
 namespace {

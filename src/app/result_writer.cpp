@@ -9,14 +9,14 @@
 
 #include "app/result_tables.hpp"
 #include "app/run_summary.hpp"
+#include "core/error.hpp"
 #include "io/atomic_file.hpp"
 #include "io/cloud_writer.hpp"
-#include "io/error.hpp"
 #include "io/g2o.hpp"
 #include "io/sensor_yaml.hpp"
 #include "io/settings_yaml.hpp"
 #include "io/trajectory.hpp"
-#include "slam/map_cloud.hpp"
+#include "key_frames/map_cloud.hpp"
 
 namespace lego_loam_sc {
 namespace {

@@ -8,10 +8,10 @@
 #include "app/health_log.hpp"
 #include "app/run_facts.hpp"
 #include "core/sensor_model.hpp"
-#include "core/settings.hpp"
 #include "io/append_file.hpp"
 #include "io/dataset_facts.hpp"
 #include "slam/report.hpp"
+#include "slam/settings.hpp"
 #include "slam/slam.hpp"
 
 namespace lego_loam_sc {

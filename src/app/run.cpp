@@ -19,12 +19,12 @@
 #include "app/run_folder.hpp"
 #include "app/run_input.hpp"
 #include "app/scan_input.hpp"
+#include "core/error.hpp"
 #include "io/blob_file.hpp"
-#include "io/error.hpp"
-#include "io/recognise_sensor.hpp"
 #include "io/sensor_yaml.hpp"
 #include "io/settings_yaml.hpp"
 #include "io/trajectory.hpp"
+#include "sensor/recognise_sensor.hpp"
 #include "slam/slam.hpp"
 
 namespace lego_loam_sc {

@@ -3,7 +3,7 @@
 
 #include <system_error>
 
-#include "io/error.hpp"
+#include "core/error.hpp"
 
 namespace lego_loam_sc {
 namespace {

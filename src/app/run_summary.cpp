@@ -9,11 +9,11 @@
 #include <thread>
 #include <vector>
 
+#include "core/error.hpp"
 #include "core/pose.hpp"
+#include "core/text.hpp"
 #include "eval/association.hpp"
 #include "eval/error_report.hpp"
-#include "io/error.hpp"
-#include "io/text.hpp"
 
 namespace lego_loam_sc {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "io/error.hpp"
+#include "core/error.hpp"
 
 namespace lego_loam_sc {
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "app/interrupt.hpp"
-#include "io/error.hpp"
+#include "core/error.hpp"
 
 namespace lego_loam_sc {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "features/feature_row.hpp"
 #include "features/roughness.hpp"
-#include "slam/front_end.hpp"
+#include "tracking/front_end.hpp"
 
 namespace lego_loam_sc {
 namespace {

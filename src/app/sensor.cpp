@@ -13,10 +13,10 @@
 #include "app/commands.hpp"
 #include "app/scan_input.hpp"
 #include "app/scan_prefetcher.hpp"
+#include "core/error.hpp"
 #include "io/atomic_file.hpp"
-#include "io/error.hpp"
-#include "io/learn_sensor.hpp"
 #include "io/sensor_yaml.hpp"
+#include "sensor/learn_sensor.hpp"
 
 namespace lego_loam_sc {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "io/error.hpp"
+#include "core/error.hpp"
 
 namespace lego_loam_sc {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "io/text.hpp"
+#include "core/text.hpp"
 
 namespace lego_loam_sc {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/sensor_model.hpp"
-#include "core/settings.hpp"
+#include "features/settings.hpp"
 #include "segmentation/range_image.hpp"
 #include "segmentation/segmentation.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/pose.hpp"
-#include "core/settings.hpp"
+#include "graph/settings.hpp"
 
 namespace lego_loam_sc {
 

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <utility>
 
-#include "io/error.hpp"
+#include "core/error.hpp"
 
 namespace lego_loam_sc {
 

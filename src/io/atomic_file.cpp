@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "io/error.hpp"
+#include "core/error.hpp"
 
 namespace lego_loam_sc {
 

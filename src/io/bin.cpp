@@ -4,8 +4,8 @@
 #include <array>
 #include <string>
 
+#include "core/error.hpp"
 #include "io/bytes.hpp"
-#include "io/error.hpp"
 #include "io/file.hpp"
 
 namespace lego_loam_sc {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <vector>
 
+#include "core/error.hpp"
+#include "core/text.hpp"
 #include "io/atomic_file.hpp"
-#include "io/error.hpp"
 #include "io/file.hpp"
-#include "io/text.hpp"
 #include "io/yaml.hpp"
 
 namespace lego_loam_sc {

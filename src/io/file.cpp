@@ -6,7 +6,7 @@
 #include <cstring>
 #include <memory>
 
-#include "io/error.hpp"
+#include "core/error.hpp"
 
 namespace lego_loam_sc {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "core/text.hpp"
 #include "io/atomic_file.hpp"
-#include "io/text.hpp"
 
 namespace lego_loam_sc {
 namespace {

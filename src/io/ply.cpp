@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
+#include "core/text.hpp"
 #include "io/bytes.hpp"
-#include "io/error.hpp"
 #include "io/file.hpp"
-#include "io/text.hpp"
 
 namespace lego_loam_sc {
 namespace {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "core/error.hpp"
+#include "core/text.hpp"
 #include "core/time.hpp"
-#include "io/error.hpp"
-#include "io/text.hpp"
 
 namespace lego_loam_sc {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/preset_text.hpp"
 
+#include "core/text.hpp"
 #include "io/presets.hpp"
-#include "io/text.hpp"
 
 namespace lego_loam_sc {
 

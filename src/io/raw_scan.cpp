@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <limits>
 
+#include "core/error.hpp"
+#include "core/text.hpp"
 #include "io/bytes.hpp"
-#include "io/error.hpp"
-#include "io/text.hpp"
 
 namespace lego_loam_sc {
 namespace {

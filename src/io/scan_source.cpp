@@ -9,15 +9,15 @@
 #include <set>
 #include <utility>
 
+#include "core/error.hpp"
+#include "core/text.hpp"
 #include "io/bin.hpp"
-#include "io/error.hpp"
 #include "io/file.hpp"
 #include "io/natural_order.hpp"
 #include "io/pcd.hpp"
 #include "io/ply.hpp"
 #include "io/scan_stream.hpp"
 #include "io/scan_times.hpp"
-#include "io/text.hpp"
 
 namespace lego_loam_sc {
 namespace {

@@ -6,8 +6,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "core/error.hpp"
 #include "io/bytes.hpp"
-#include "io/error.hpp"
 
 namespace lego_loam_sc {
 namespace {

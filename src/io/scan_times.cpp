@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/scan_times.hpp"
 
-#include "io/error.hpp"
-#include "io/text.hpp"
+#include "core/error.hpp"
+#include "core/text.hpp"
 
 namespace lego_loam_sc {
 

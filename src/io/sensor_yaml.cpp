@@ -6,10 +6,10 @@
 #include <optional>
 #include <vector>
 
-#include "io/error.hpp"
+#include "core/error.hpp"
+#include "core/text.hpp"
 #include "io/file.hpp"
 #include "io/preset_text.hpp"
-#include "io/text.hpp"
 #include "io/yaml.hpp"
 
 namespace lego_loam_sc {

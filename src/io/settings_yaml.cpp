@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <type_traits>
 
-#include "io/error.hpp"
+#include "core/error.hpp"
+#include "core/text.hpp"
 #include "io/file.hpp"
 #include "io/preset_text.hpp"
-#include "io/text.hpp"
 #include "io/yaml.hpp"
 
 namespace lego_loam_sc {

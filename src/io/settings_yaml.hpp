@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/settings.hpp"
+#include "slam/settings.hpp"
 
 namespace lego_loam_sc {
 

@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 
+#include "core/error.hpp"
+#include "core/text.hpp"
 #include "io/atomic_file.hpp"
-#include "io/error.hpp"
 #include "io/file.hpp"
-#include "io/text.hpp"
 
 namespace lego_loam_sc {
 namespace {

@@ -8,8 +8,8 @@
 #include <set>
 #include <sstream>
 
-#include "io/error.hpp"
-#include "io/text.hpp"
+#include "core/error.hpp"
+#include "core/text.hpp"
 
 namespace lego_loam_sc {
 namespace {

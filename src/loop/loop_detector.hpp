@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/pose.hpp"
-#include "loop/key_frames.hpp"
+#include "key_frames/key_frames.hpp"
 #include "loop/loop_candidate.hpp"
 
 namespace lego_loam_sc {

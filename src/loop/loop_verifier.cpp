@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "features/features.hpp"
-#include "mapping/local_map.hpp"
-#include "mapping/thin_out.hpp"
-#include "odometry/correspondence.hpp"
-#include "odometry/localizability.hpp"
+#include "map/local_map.hpp"
+#include "map/thin_out.hpp"
+#include "registration/correspondence.hpp"
+#include "registration/localizability.hpp"
 
 namespace lego_loam_sc {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/pose.hpp"
-#include "core/settings.hpp"
 #include "features/features.hpp"
+#include "loop/settings.hpp"
 
 namespace lego_loam_sc {
 

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "core/settings.hpp"
 #include "loop/loop_candidate.hpp"
+#include "loop/settings.hpp"
 
 namespace lego_loam_sc {
 

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <numbers>
 
-#include "segmentation/azimuth.hpp"
+#include "core/azimuth.hpp"
 
 namespace lego_loam_sc {
 namespace {

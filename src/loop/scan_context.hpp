@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/settings.hpp"
+#include "loop/settings.hpp"
 
 namespace lego_loam_sc {
 

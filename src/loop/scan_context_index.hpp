@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "core/settings.hpp"
 #include "loop/loop_candidate.hpp"
 #include "loop/scan_context.hpp"
+#include "loop/settings.hpp"
 
 namespace lego_loam_sc {
 

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "core/pose.hpp"
-#include "odometry/correspondence.hpp"
+#include "registration/correspondence.hpp"
 
 namespace lego_loam_sc {
 

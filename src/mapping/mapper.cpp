@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "map/thin_out.hpp"
 #include "mapping/sweep_priors.hpp"
-#include "mapping/thin_out.hpp"
-#include "odometry/correspondence.hpp"
-#include "odometry/deskew.hpp"
+#include "registration/correspondence.hpp"
+#include "registration/deskew.hpp"
 
 namespace lego_loam_sc {
 namespace {

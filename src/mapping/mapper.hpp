@@ -4,12 +4,12 @@
 #include <optional>
 
 #include "core/pose.hpp"
-#include "core/settings.hpp"
 #include "features/features.hpp"
+#include "map/local_map.hpp"
 #include "mapping/elevation_bias.hpp"
-#include "mapping/local_map.hpp"
 #include "mapping/row_bias.hpp"
-#include "odometry/localizability.hpp"
+#include "mapping/settings.hpp"
+#include "registration/localizability.hpp"
 
 namespace lego_loam_sc {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/pose.hpp"
-#include "odometry/correspondence.hpp"
+#include "registration/correspondence.hpp"
 
 namespace lego_loam_sc {
 

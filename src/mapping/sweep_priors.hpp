@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/pose.hpp"
-#include "odometry/levenberg_marquardt.hpp"
-#include "odometry/localizability.hpp"
+#include "registration/levenberg_marquardt.hpp"
+#include "registration/localizability.hpp"
 
 namespace lego_loam_sc {
 

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "core/pose.hpp"
-#include "core/settings.hpp"
-#include "odometry/correspondence.hpp"
 #include "odometry/feature_index.hpp"
+#include "odometry/settings.hpp"
+#include "registration/correspondence.hpp"
 
 namespace lego_loam_sc {
 

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "segmentation/azimuth.hpp"
+#include "core/azimuth.hpp"
 
 namespace lego_loam_sc {
 namespace {

@@ -6,8 +6,8 @@
 #include <iterator>
 
 #include "odometry/association.hpp"
-#include "odometry/correspondence.hpp"
-#include "odometry/deskew.hpp"
+#include "registration/correspondence.hpp"
+#include "registration/deskew.hpp"
 
 namespace lego_loam_sc {
 namespace {

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "core/pose.hpp"
-#include "core/settings.hpp"
 #include "features/features.hpp"
 #include "odometry/feature_index.hpp"
-#include "odometry/localizability.hpp"
+#include "odometry/settings.hpp"
+#include "registration/localizability.hpp"
 
 namespace lego_loam_sc {
 

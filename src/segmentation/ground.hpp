@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "core/sensor_model.hpp"
-#include "core/settings.hpp"
 #include "segmentation/range_image.hpp"
 #include "segmentation/segmentation.hpp"
+#include "segmentation/settings.hpp"
 
 namespace lego_loam_sc {
 

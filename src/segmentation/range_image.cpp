@@ -8,9 +8,9 @@
 #include <numeric>
 #include <span>
 
+#include "core/azimuth.hpp"
 #include "core/pose.hpp"
-#include "segmentation/azimuth.hpp"
-#include "segmentation/row_assignment.hpp"
+#include "sensor/row_assignment.hpp"
 
 namespace lego_loam_sc {
 namespace {

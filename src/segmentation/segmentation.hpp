@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/sensor_model.hpp"
-#include "core/settings.hpp"
 #include "segmentation/range_image.hpp"
+#include "segmentation/settings.hpp"
 
 namespace lego_loam_sc {
 

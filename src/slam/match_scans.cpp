@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "slam/front_end.hpp"
-#include "slam/make_key_frame.hpp"
+#include "key_frames/make_key_frame.hpp"
+#include "tracking/front_end.hpp"
 
 namespace lego_loam_sc {
 namespace {

@@ -3,9 +3,9 @@
 
 #include "core/scan.hpp"
 #include "core/sensor_model.hpp"
-#include "core/settings.hpp"
 #include "loop/loop_verifier.hpp"
 #include "loop/scan_context.hpp"
+#include "slam/settings.hpp"
 
 namespace lego_loam_sc {
 

@@ -3,13 +3,13 @@
 #include <cmath>
 
 #include "core/time.hpp"
-#include "odometry/deskew.hpp"
-#include "slam/edge_covariance.hpp"
-#include "slam/front_end.hpp"
-#include "slam/make_key_frame.hpp"
+#include "graph/edge_covariance.hpp"
+#include "key_frames/make_key_frame.hpp"
+#include "registration/deskew.hpp"
 #include "slam/slam_state.hpp"
-#include "slam/stage_timer.hpp"
-#include "slam/stamp_pose.hpp"
+#include "tracking/front_end.hpp"
+#include "tracking/stage_timer.hpp"
+#include "tracking/stamp_pose.hpp"
 
 namespace lego_loam_sc {
 namespace {
@@ -73,7 +73,7 @@ ScanReport Slam::State::process(const Scan& scan) {
   timer.start(Stage::mapping);
   const MapMatch match = refine(features, motion, seconds, report);
   const bool placed = report.status <= Status::odometry_only;
-  const bool new_piece = doubt.out_of_patience();
+  const bool new_piece = doubt.should_start_new_map();
   if (new_piece) begin_piece(report);
   const bool good = placed || new_piece;
 

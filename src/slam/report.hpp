@@ -7,23 +7,10 @@
 
 #include "core/pose.hpp"
 #include "core/status.hpp"
-#include "loop/loop_candidate.hpp"
-#include "loop/loop_verifier.hpp"
+#include "loop/loop_report.hpp"
+#include "tracking/stage_timer.hpp"
 
 namespace lego_loam_sc {
-
-/// What became of a loop candidate; a row of loops.csv.
-struct LoopReport {
-  LoopCandidate candidate;
-  int query_scan = 0;
-  int match_scan = 0;
-  LoopVerification verification;
-  bool added = false;  ///< to the pose graph, which knew the other accepted loops already
-};
-
-/// The stages of paper figure 4, for the times that they take.
-enum class Stage { projection, segmentation, features, odometry, mapping, loops };
-constexpr int kStages = 6;
 
 /// What became of a scan; a row of scans.csv.
 struct ScanReport {
@@ -50,7 +37,7 @@ struct ScanReport {
 
   double prediction_m = 0.0;  ///< from the predicted to the found position
 
-  int piece = 0;       ///< of the drive, from 0; see Pieces
+  int piece = 0;       ///< of the drive, from 0; see MapFragments
   int key_frame = -1;  ///< its number when the scan is one
   std::vector<LoopReport> loops;
   bool corrected = false;  ///< a loop came into the pose graph

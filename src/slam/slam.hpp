@@ -7,13 +7,13 @@
 
 #include "core/scan.hpp"
 #include "core/sensor_model.hpp"
-#include "core/settings.hpp"
 #include "core/state_archive.hpp"
 #include "core/trajectory.hpp"
 #include "graph/pose_graph.hpp"
-#include "loop/key_frame.hpp"
+#include "key_frames/key_frame.hpp"
 #include "loop/loop_detector.hpp"
 #include "slam/report.hpp"
+#include "slam/settings.hpp"
 
 namespace lego_loam_sc {
 

@@ -9,15 +9,15 @@
 #include <utility>
 #include <vector>
 
+#include "graph/map_fragments.hpp"
+#include "loop/loop_closer.hpp"
 #include "mapping/mapper.hpp"
 #include "odometry/odometry.hpp"
-#include "slam/doubt.hpp"
-#include "slam/loop_closer.hpp"
-#include "slam/map_upkeep.hpp"
-#include "slam/pieces.hpp"
-#include "slam/scan_clock.hpp"
 #include "slam/slam.hpp"
 #include "slam/transform_fusion.hpp"
+#include "tracking/local_map_updater.hpp"
+#include "tracking/scan_clock.hpp"
+#include "tracking/tracking_monitor.hpp"
 
 namespace lego_loam_sc {
 
@@ -86,8 +86,8 @@ struct Slam::State {
   Mapper mapper;
   LoopCloser loop_closer;
   PoseGraph graph;
-  Pieces pieces;
-  MapUpkeep upkeep;
+  MapFragments pieces;
+  LocalMapUpdater upkeep;
   Pose T_map_key = Pose::Identity();  // the last key frame, where the mapper has it
   TransformFusion fusion;
   KeyFrames key_frames;
@@ -100,7 +100,7 @@ struct Slam::State {
   Vector6 twist = Vector6::Zero();  // of that scan, m/s and rad/s
   double speed = 0.0;               // m/s, mean of the last scans whose motion the map told
   double travelled = 0.0;           // m
-  Doubt doubt;
+  TrackingMonitor doubt;
 };
 
 }  // namespace lego_loam_sc

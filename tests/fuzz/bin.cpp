@@ -2,8 +2,8 @@
 #include "io/bin.hpp"
 
 #include "fuzz.hpp"
-#include "io/recognise_sensor.hpp"
 #include "io/sensor_yaml.hpp"
+#include "sensor/recognise_sensor.hpp"
 
 using namespace lego_loam_sc;
 

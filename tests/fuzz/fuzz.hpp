@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <string>
 
+#include "core/error.hpp"
 #include "core/scan.hpp"
-#include "io/error.hpp"
 
 // What the fuzz targets share. Each gives the bytes that libFuzzer makes to one reader: it may
 // throw InputError with a sentence, and what it accepts must hold together. All else ends the

@@ -5,8 +5,8 @@
 
 #include "fuzz.hpp"
 #include "io/point_times.hpp"
-#include "io/recognise_sensor.hpp"
 #include "io/sensor_yaml.hpp"
+#include "sensor/recognise_sensor.hpp"
 
 namespace lego_loam_sc {
 

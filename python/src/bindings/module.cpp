@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "module.hpp"
 
-#include <lego_loam_sc/io/error.hpp>
+#include <lego_loam_sc/core/error.hpp>
 
 namespace lego_loam_sc::python {
 

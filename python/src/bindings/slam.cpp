@@ -5,7 +5,7 @@
 #include <nanobind/stl/vector.h>
 
 #include <lego_loam_sc/io/trajectory.hpp>
-#include <lego_loam_sc/slam/map_cloud.hpp>
+#include <lego_loam_sc/key_frames/map_cloud.hpp>
 #include <lego_loam_sc/slam/slam.hpp>
 #include <stdexcept>
 #include <string>

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sensor/recognise_sensor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/pose.hpp"
+#include "core/text.hpp"
+#include "io/preset_text.hpp"
+#include "io/sensor_yaml.hpp"
+#include "sensor/beams.hpp"
+#include "sensor/row_assignment.hpp"
+
+namespace lego_loam_sc {
+namespace {
+
+// Chance alone puts 30 % of the points within this share of the spacing to a beam.
+constexpr double kNearShare = 0.15;
+constexpr double kFitShare = 0.8;
+constexpr double kFarDeg = 2.0;
+constexpr double kStrayShare = 0.05;
+constexpr double kMisfitShare = 0.2;
+constexpr double kRingShare = 0.9;  // of the beams of a preset that must be there
+constexpr double kNearDeg = 0.5;    // on average; units of one model differ by up to this much
+
+struct Elevations {
+  std::vector<double> deg;  // of the points with a return
+  double lowest = 0.0;
+  double highest = 0.0;
+};
+
+Elevations measure_elevations(const Scan& scan) {
+  Elevations elevations;
+  for (const Eigen::Vector3f& p : scan.points)
+    if (is_return(p))
+      elevations.deg.push_back(degrees(std::atan2(p.z(), std::hypot(p.x(), p.y()))));
+  if (elevations.deg.empty()) return elevations;
+  const auto [lowest, highest] = std::minmax_element(elevations.deg.begin(), elevations.deg.end());
+  elevations.lowest = *lowest;
+  elevations.highest = *highest;
+  return elevations;
+}
+
+// Distance from an elevation to the nearest beam, and the spacing of the beams there, deg.
+struct NearestBeam {
+  double distance;
+  double spacing;
+};
+
+// `beams` has two at least.
+NearestBeam nearest_beam(const std::vector<double>& beams, double elevation) {
+  const auto above = std::lower_bound(beams.begin(), beams.end(), elevation);
+  if (above == beams.begin()) return {beams.front() - elevation, beams[1] - beams[0]};
+  if (above == beams.end()) return {elevation - beams.back(), beams.back() - *(above - 2)};
+  return {std::min(*above - elevation, elevation - *(above - 1)), *above - *(above - 1)};
+}
+
+template <class Holds>
+double share_of(const Elevations& elevations, Holds&& holds) {
+  const auto count = std::count_if(elevations.deg.begin(), elevations.deg.end(), holds);
+  return static_cast<double>(count) / static_cast<double>(elevations.deg.size());
+}
+
+bool fits(const Elevations& elevations, const std::vector<double>& beams) {
+  return share_of(elevations, [&](double elevation) {
+           const NearestBeam nearest = nearest_beam(beams, elevation);
+           return nearest.distance <= kNearShare * nearest.spacing;
+         }) >= kFitShare;
+}
+
+double share_outside(const Elevations& elevations, const std::vector<double>& beams) {
+  return share_of(elevations, [&](double elevation) {
+    return elevation < beams.front() - kFarDeg || elevation > beams.back() + kFarDeg;
+  });
+}
+
+std::size_t count_rings(const Scan& scan) {
+  std::vector<bool> seen(std::size_t{std::numeric_limits<std::uint16_t>::max()} + 1);
+  for (std::size_t i = 0; i < scan.ring.size(); ++i)
+    if (is_return(scan.points[i])) seen[scan.ring[i]] = true;
+  return static_cast<std::size_t>(std::count(seen.begin(), seen.end(), true));
+}
+
+std::size_t count_stored_rings(const Scan& scan) {
+  const std::vector<std::int16_t> ring = stored_rings(scan);
+  return ring.empty() ? 0 : static_cast<std::size_t>(1 + *std::ranges::max_element(ring));
+}
+
+// Nothing when the scan looks like no sensor that we know.
+std::optional<std::string> recognise(const Scan& scan, const Elevations& elevations) {
+  const std::size_t rings = count_rings(scan);
+  if (rings == 0) {
+    const std::size_t stored = count_stored_rings(scan);
+    // The outermost may be empty.
+    if (stored >= 60 && stored <= 66 &&
+        share_outside(elevations, load_sensor("kitti").elevation_deg) < kStrayShare)
+      return "kitti";
+  }
+  for (const char* name : {"vlp16", "hdl32e"}) {
+    const SensorModel sensor = load_sensor(name);
+    if (rings <= sensor.elevation_deg.size() && fits(elevations, sensor.elevation_deg)) return name;
+  }
+  if (const auto preset = nearest_preset(beams_of_rings({&scan, 1}).elevation_deg))
+    return preset->name;
+  // The beams of an HDL-64E differ too much from unit to unit to be compared one by one.
+  if (rings > 32 && rings <= 64 &&
+      share_outside(elevations, load_sensor("hdl64e").elevation_deg) < kStrayShare)
+    return "hdl64e";
+  return std::nullopt;
+}
+
+std::string describe(const Scan& scan, const Elevations& elevations) {
+  return std::to_string(elevations.deg.size()) + " points" +
+         (scan.ring.empty() ? std::string(" without ring numbers")
+                            : " in " + std::to_string(count_rings(scan)) + " rings") +
+         " between " + to_fixed(elevations.lowest, 1) + " and " + to_fixed(elevations.highest, 1) +
+         " degrees";
+}
+
+}  // namespace
+
+std::optional<NearestPreset> nearest_preset(const std::vector<double>& elevation_deg) {
+  std::vector<double> elevation(elevation_deg.size());
+  std::ranges::transform(elevation_deg, elevation.begin(), radians);
+  std::optional<NearestPreset> nearest;
+  // RS-LiDAR-16, RS-Helios-16P and XT16 have the beams of a VLP-16, by far the most common of them.
+  std::vector<std::string> names = preset_names("sensors");
+  names.insert(names.begin(), "vlp16");
+  for (const std::string& name : names) {
+    const SensorModel sensor = load_sensor(name);
+    if (sensor.motion_compensated || elevation.size() < kRingShare * sensor.rows()) continue;
+    const auto rows = align_to_beams(elevation, sensor);
+    if (!rows) continue;
+    double sum = 0.0;
+    for (std::size_t k = 0; k < rows->size(); ++k)
+      sum += std::abs(elevation_deg[k] - sensor.elevation_deg[(*rows)[k]]);
+    const double difference = sum / static_cast<double>(rows->size());
+    if (difference < (nearest ? nearest->difference_deg : kNearDeg))
+      nearest = NearestPreset{name, difference};
+  }
+  return nearest;
+}
+
+SensorModel recognise_sensor(const Scan& scan, const DatasetFacts& facts) {
+  if (facts.sensor) return with_facts(load_sensor(*facts.sensor), facts);
+  if (const auto fault = fault_of_rings(beams_of_rings({&scan, 1})))
+    throw InputError("the sensor is not recognised: " + *fault);
+  const Elevations elevations = measure_elevations(scan);
+  const std::optional<std::string> name =
+      elevations.deg.empty() ? std::nullopt : recognise(scan, elevations);
+  if (!name)
+    throw InputError("the sensor is not recognised: the scan has " + describe(scan, elevations) +
+                     "; give --sensor with a sensor file or one of " +
+                     join(preset_names("sensors")));
+  return with_facts(load_sensor(*name), facts);
+}
+
+std::optional<std::string> sensor_mismatch(const Scan& scan, const SensorModel& sensor) {
+  const Elevations elevations = measure_elevations(scan);
+  if (elevations.deg.empty()) return std::nullopt;
+  if (const auto fault = fault_of_rings(beams_of_rings({&scan, 1}))) return fault;
+  const auto& beams = sensor.elevation_deg;
+  if (count_rings(scan) <= beams.size() && share_outside(elevations, beams) <= kMisfitShare)
+    return std::nullopt;
+  return "the scan does not fit the sensor " + sensor.name + ", which has " +
+         std::to_string(beams.size()) + " beams between " + to_fixed(beams.front(), 1) + " and " +
+         to_fixed(beams.back(), 1) + " degrees: it has " + describe(scan, elevations) +
+         "; give another --sensor";
+}
+
+}  // namespace lego_loam_sc

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tracking/tracking_monitor.hpp"
+
+#include <gtest/gtest.h>
+
+namespace lego_loam_sc {
+namespace {
+
+MapMatch matched(int agreeing) {
+  MapMatch match;
+  match.matched = true;
+  match.points = 100;
+  match.matches = 80;
+  match.agreeing = agreeing;
+  return match;
+}
+
+const MapMatch kConfirmed = matched(75);
+const MapMatch kContradicted = matched(30);
+const MapMatch kUnmatched;
+
+TEST(TrackingMonitor, TheOdometryAloneTellsThePlaceAsLongAsNothingIsInDoubt) {
+  TrackingMonitor doubt;
+  EXPECT_TRUE(doubt.place_is_known(true, kUnmatched));
+  EXPECT_TRUE(doubt.place_is_known(true, kContradicted));
+  EXPECT_FALSE(doubt.place_is_known(false, kUnmatched));
+}
+
+TEST(TrackingMonitor, AfterAGapOnlyTheMapTellsThePlace) {
+  for (const auto& [jump_s, seconds] : {std::pair(3600.0, 0.1), std::pair(0.0, 10.0)}) {
+    TrackingMonitor doubt;
+    doubt.note_gap(jump_s, seconds);
+    EXPECT_FALSE(doubt.place_is_known(true, kUnmatched));
+    EXPECT_FALSE(doubt.place_is_known(true, kContradicted));
+    EXPECT_TRUE(doubt.place_is_known(false, kConfirmed));
+    EXPECT_TRUE(doubt.place_is_known(true, kUnmatched));
+  }
+}
+
+TEST(TrackingMonitor, AFewScansGapIsNone) {
+  TrackingMonitor doubt;
+  doubt.note_gap(0.0, 0.5);
+  EXPECT_TRUE(doubt.place_is_known(true, kUnmatched));
+}
+
+// Once lost, a scan that the map contradicts is no better for an odometry that goes on.
+TEST(TrackingMonitor, WhoIsLostIsFoundByTheMapOrByAnOdometryThatItDoesNotContradict) {
+  TrackingMonitor doubt;
+  EXPECT_FALSE(doubt.place_is_known(false, kUnmatched));
+  EXPECT_FALSE(doubt.place_is_known(true, kContradicted));
+  EXPECT_TRUE(doubt.place_is_known(true, kUnmatched));
+  EXPECT_FALSE(doubt.place_is_known(false, kContradicted));
+  EXPECT_TRUE(doubt.place_is_known(false, kConfirmed));
+}
+
+TEST(TrackingMonitor, PatienceEndsAfterTenScansInARow) {
+  TrackingMonitor doubt;
+  for (int scan = 0; scan < 9; ++scan) doubt.place_is_known(false, kUnmatched);
+  EXPECT_FALSE(doubt.should_start_new_map());
+  doubt.place_is_known(false, kUnmatched);
+  EXPECT_TRUE(doubt.should_start_new_map());
+  doubt.clear();
+  EXPECT_FALSE(doubt.should_start_new_map());
+  EXPECT_TRUE(doubt.place_is_known(true, kUnmatched));
+}
+
+}  // namespace
+}  // namespace lego_loam_sc
