@@ -29,10 +29,9 @@ struct Drive {
   std::shared_ptr<CountedBlobs> blobs = std::make_shared<CountedBlobs>();
   KeyFrames key_frames{blobs};
   std::vector<Pose> poses;
-  std::vector<int> places;
-  MapFragments pieces;
+  int first_of_map = 0;  // key frame; those before it lie in another map
   Mapper mapper{{}, 0.01};
-  LocalMapUpdater upkeep{kRadius};
+  LocalMapUpdater updater{kRadius};
 
   void go_to(double x) {
     Pose pose = Pose::Identity();
@@ -40,17 +39,21 @@ struct Drive {
     KeyFrame key_frame;
     key_frame.planars = {pack({1.0f, 2.0f, 0.0f}, 0.0f)};
     key_frames.add(key_frame);
+    updater.add(static_cast<int>(poses.size()), pose);
     poses.push_back(pose);
-    places.push_back(static_cast<int>(places.size()));
-    upkeep.add(places.back(), pose);
   }
 
-  bool follow() { return upkeep.follow(poses, places, pieces, key_frames, mapper); }
+  bool correct(bool accepted = true) {
+    Correction correction{poses, accepted, {}};
+    for (int k = first_of_map; k < static_cast<int>(poses.size()); ++k)
+      correction.places.push_back(k);
+    return updater.on_graph_update(correction, key_frames, mapper);
+  }
 
-  // Key frames that are put into the map by the scans to come.
-  int put_in_later() {
+  // Key frames that the scans to come insert.
+  int inserted_later() {
     const int before = blobs->loaded();
-    for (int scan = 0; scan < 1000; ++scan) upkeep.go_on(poses, key_frames, mapper);
+    for (int scan = 0; scan < 1000; ++scan) updater.insert_pending(key_frames, mapper);
     return blobs->loaded() - before;
   }
 };
@@ -59,46 +62,56 @@ TEST(LocalMapUpdater, LeavesTheMapAloneWhileKeyFramesStayWhereTheyAre) {
   Drive drive;
   for (int k = 0; k < 20; ++k) drive.go_to(10.0 * k);
   for (Pose& pose : drive.poses) pose.translation().y() += 0.02;
-  EXPECT_FALSE(drive.follow());
-  EXPECT_EQ(drive.put_in_later(), 0);
+  EXPECT_FALSE(drive.correct());
+  EXPECT_EQ(drive.inserted_later(), 0);
 }
 
-TEST(LocalMapUpdater, DrawsTheMapAnewWhenKeyFramesHaveMoved) {
+TEST(LocalMapUpdater, RebuildsTheMapWhenKeyFramesHaveMoved) {
   Drive drive;
   for (int k = 0; k < 20; ++k) drive.go_to(10.0 * k);
   drive.poses[7].translation().y() += 0.05;
-  EXPECT_TRUE(drive.follow());
+  EXPECT_TRUE(drive.correct());
   const int at_once = drive.blobs->loaded();
   EXPECT_GT(at_once, 0);
   EXPECT_LT(at_once, 20);
-  EXPECT_EQ(at_once + drive.put_in_later(), 20);
+  EXPECT_EQ(at_once + drive.inserted_later(), 20);
   EXPECT_FALSE(drive.mapper.empty());
 }
 
 // Five times over the same ten places, each 10 m from the next, then away and back to the first:
 // the map has forgotten all of them and is there again with one of each place, but for the present.
-TEST(LocalMapUpdater, PutsInOneKeyFrameOfEachPlace) {
+TEST(LocalMapUpdater, InsertsOneKeyFrameOfEachPlace) {
   Drive drive;
   for (int round = 0; round < 5; ++round)
     for (int k = 0; k < 10; ++k) drive.go_to(10.0 * k + 0.1 * round);
   drive.go_to(500.0);
   drive.go_to(0.0);
-  EXPECT_FALSE(drive.follow());
-  EXPECT_EQ(drive.put_in_later(), 9);
+  EXPECT_FALSE(drive.correct());
+  EXPECT_EQ(drive.inserted_later(), 9);
+}
+
+// A loop that was taken out again moves what is still to be inserted, and nothing else.
+TEST(LocalMapUpdater, ARefusedLoopLeavesTheMapAlone) {
+  Drive drive;
+  for (int k = 0; k < 20; ++k) drive.go_to(10.0 * k);
+  drive.poses[7].translation().y() += 0.05;
+  EXPECT_FALSE(drive.correct(false));
+  EXPECT_EQ(drive.inserted_later(), 0);
+  EXPECT_TRUE(drive.correct(true));
 }
 
 TEST(LocalMapUpdater, OtherMapsStayOut) {
   Drive drive;
   for (int k = 0; k < 10; ++k) drive.go_to(10.0 * k);
   drive.go_to(500.0);
-  drive.pieces.begin(static_cast<int>(drive.poses.size()));
-  drive.upkeep.clear();
+  drive.first_of_map = static_cast<int>(drive.poses.size());
+  drive.updater.clear();
   drive.go_to(0.5);
-  EXPECT_FALSE(drive.follow());
-  EXPECT_EQ(drive.put_in_later(), 0);
-  drive.pieces.join(0, static_cast<int>(drive.poses.size()) - 1);
-  EXPECT_FALSE(drive.follow());
-  EXPECT_EQ(drive.put_in_later(), 9);
+  EXPECT_FALSE(drive.correct());
+  EXPECT_EQ(drive.inserted_later(), 0);
+  drive.first_of_map = 0;
+  EXPECT_FALSE(drive.correct());
+  EXPECT_EQ(drive.inserted_later(), 9);
 }
 
 }  // namespace

@@ -128,13 +128,12 @@ TEST(Mounting, ATiltedSensorKeepsItsTrajectoryInALevelMap) {
 TEST(Mounting, TheFrontEndLevelsASensorAndFindsItsHeight) {
   const SensorModel truth = mounted("vlp16", 0.0, 15.0);
   const Scan scan = take_scan(hall(), truth, pose_of_lidar(base_at(0.0), truth));
-  SensorModel told = truth, found = untold(truth);
-  double told_height = 1.5, found_height = 0.0;
-  const FrontEnd expected = run_front_end(scan, told, told_height, {}, true);
-  const FrontEnd front = run_front_end(scan, found, found_height, {}, true);
-  EXPECT_EQ(told_height, 1.5);
-  EXPECT_NEAR(found_height, 1.5, 0.1);
-  EXPECT_NEAR(found.mount_pitch_deg, 15.0, 1.0);
+  const FrontEnd expected = run_front_end(scan, truth, 1.5, {}, true);
+  const FrontEnd front = run_front_end(scan, untold(truth), 0.0, {}, true);
+  EXPECT_EQ(expected.mounting.height, 1.5);
+  EXPECT_EQ(expected.mounting.pitch_deg, truth.mount_pitch_deg);
+  EXPECT_NEAR(front.mounting.height, 1.5, 0.1);
+  EXPECT_NEAR(front.mounting.pitch_deg, 15.0, 1.0);
   const auto ground = static_cast<double>(expected.segmentation.ground_points);
   EXPECT_GT(ground, 0.1 * static_cast<double>(expected.image.size()));
   EXPECT_NEAR(static_cast<double>(front.segmentation.ground_points), ground, 0.05 * ground);

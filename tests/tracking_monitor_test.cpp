@@ -20,48 +20,48 @@ const MapMatch kContradicted = matched(30);
 const MapMatch kUnmatched;
 
 TEST(TrackingMonitor, TheOdometryAloneTellsThePlaceAsLongAsNothingIsInDoubt) {
-  TrackingMonitor doubt;
-  EXPECT_TRUE(doubt.place_is_known(true, kUnmatched));
-  EXPECT_TRUE(doubt.place_is_known(true, kContradicted));
-  EXPECT_FALSE(doubt.place_is_known(false, kUnmatched));
+  TrackingMonitor monitor;
+  EXPECT_TRUE(monitor.place_is_known(true, kUnmatched));
+  EXPECT_TRUE(monitor.place_is_known(true, kContradicted));
+  EXPECT_FALSE(monitor.place_is_known(false, kUnmatched));
 }
 
 TEST(TrackingMonitor, AfterAGapOnlyTheMapTellsThePlace) {
   for (const auto& [jump_s, seconds] : {std::pair(3600.0, 0.1), std::pair(0.0, 10.0)}) {
-    TrackingMonitor doubt;
-    doubt.note_gap(jump_s, seconds);
-    EXPECT_FALSE(doubt.place_is_known(true, kUnmatched));
-    EXPECT_FALSE(doubt.place_is_known(true, kContradicted));
-    EXPECT_TRUE(doubt.place_is_known(false, kConfirmed));
-    EXPECT_TRUE(doubt.place_is_known(true, kUnmatched));
+    TrackingMonitor monitor;
+    monitor.note_gap(jump_s, seconds);
+    EXPECT_FALSE(monitor.place_is_known(true, kUnmatched));
+    EXPECT_FALSE(monitor.place_is_known(true, kContradicted));
+    EXPECT_TRUE(monitor.place_is_known(false, kConfirmed));
+    EXPECT_TRUE(monitor.place_is_known(true, kUnmatched));
   }
 }
 
 TEST(TrackingMonitor, AFewScansGapIsNone) {
-  TrackingMonitor doubt;
-  doubt.note_gap(0.0, 0.5);
-  EXPECT_TRUE(doubt.place_is_known(true, kUnmatched));
+  TrackingMonitor monitor;
+  monitor.note_gap(0.0, 0.5);
+  EXPECT_TRUE(monitor.place_is_known(true, kUnmatched));
 }
 
 // Once lost, a scan that the map contradicts is no better for an odometry that goes on.
 TEST(TrackingMonitor, WhoIsLostIsFoundByTheMapOrByAnOdometryThatItDoesNotContradict) {
-  TrackingMonitor doubt;
-  EXPECT_FALSE(doubt.place_is_known(false, kUnmatched));
-  EXPECT_FALSE(doubt.place_is_known(true, kContradicted));
-  EXPECT_TRUE(doubt.place_is_known(true, kUnmatched));
-  EXPECT_FALSE(doubt.place_is_known(false, kContradicted));
-  EXPECT_TRUE(doubt.place_is_known(false, kConfirmed));
+  TrackingMonitor monitor;
+  EXPECT_FALSE(monitor.place_is_known(false, kUnmatched));
+  EXPECT_FALSE(monitor.place_is_known(true, kContradicted));
+  EXPECT_TRUE(monitor.place_is_known(true, kUnmatched));
+  EXPECT_FALSE(monitor.place_is_known(false, kContradicted));
+  EXPECT_TRUE(monitor.place_is_known(false, kConfirmed));
 }
 
 TEST(TrackingMonitor, PatienceEndsAfterTenScansInARow) {
-  TrackingMonitor doubt;
-  for (int scan = 0; scan < 9; ++scan) doubt.place_is_known(false, kUnmatched);
-  EXPECT_FALSE(doubt.should_start_new_map());
-  doubt.place_is_known(false, kUnmatched);
-  EXPECT_TRUE(doubt.should_start_new_map());
-  doubt.clear();
-  EXPECT_FALSE(doubt.should_start_new_map());
-  EXPECT_TRUE(doubt.place_is_known(true, kUnmatched));
+  TrackingMonitor monitor;
+  for (int scan = 0; scan < 9; ++scan) monitor.place_is_known(false, kUnmatched);
+  EXPECT_FALSE(monitor.should_start_new_map());
+  monitor.place_is_known(false, kUnmatched);
+  EXPECT_TRUE(monitor.should_start_new_map());
+  monitor.clear();
+  EXPECT_FALSE(monitor.should_start_new_map());
+  EXPECT_TRUE(monitor.place_is_known(true, kUnmatched));
 }
 
 }  // namespace

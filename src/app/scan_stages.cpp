@@ -41,9 +41,9 @@ void measure_roughness(const SensorModel& sensor, const FeatureSettings& setting
 
 ScanStages make_stages(const Scan& scan, const SensorModel& sensor, const Settings& settings) {
   ScanStages stages;
-  stages.sensor = sensor;
-  stages.sensor_height = sensor.height;
-  FrontEnd front = run_front_end(scan, stages.sensor, stages.sensor_height, settings, true);
+  FrontEnd front = run_front_end(scan, sensor, sensor.height, settings, true);
+  stages.sensor = mounted(sensor, front.mounting);
+  stages.sensor_height = front.mounting.height;
   stages.image = std::move(front.image);
   stages.segmentation = std::move(front.segmentation);
   stages.features = std::move(front.features);

@@ -16,6 +16,11 @@ enum class Status {
   out_of_order,    ///< its stamp is not after the one before; the scan was ignored
 };
 
+/// Whether the pose was found, not predicted: by the map or by the previous scan.
+constexpr bool is_placed(Status status) {
+  return status == Status::ok || status == Status::degenerate || status == Status::odometry_only;
+}
+
 constexpr std::string_view to_string(Status status) {
   switch (status) {
     case Status::ok: return "ok";

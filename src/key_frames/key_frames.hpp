@@ -21,6 +21,8 @@ class KeyFrames {
   /// Adds the next key frame.
   void add(const KeyFrame& key_frame);
 
+  void clear();
+
   /// Number of key frames.
   std::size_t size() const { return entries_.size(); }
   /// Reference time of key frame `k`.
@@ -55,7 +57,6 @@ class KeyFrames {
   static auto clouds(Frame& k) {
     return std::array{&k.planars, &k.edges, &k.scattered, &k.others};
   }
-  void clear();
   KeyFrame load(const Entry& entry, std::size_t count) const;
 
   std::shared_ptr<BlobStore> store_;

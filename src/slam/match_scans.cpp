@@ -16,14 +16,13 @@ struct Described {
   Eigen::Matrix3d R_level_lidar;
 };
 
-Described describe(const Scan& scan, SensorModel sensor, const Settings& settings) {
-  double height = sensor.height;
-  const auto [image, segmentation, features, milliseconds] =
-      run_front_end(scan, sensor, height, settings, true);
+Described describe(const Scan& scan, const SensorModel& sensor, const Settings& settings) {
+  const auto [image, segmentation, features, mounting, milliseconds] =
+      run_front_end(scan, sensor, sensor.height, settings, true);
   return {make_key_frame(image, segmentation, features, image.points, 0.0,
                          settings.key_frames.point_spacing),
-          make_scan_context(image.points, height, settings.loop.scan_context),
-          R_base_lidar(sensor)};
+          make_scan_context(image.points, mounting.height, settings.loop.scan_context),
+          R_base_lidar(mounted(sensor, mounting))};
 }
 
 }  // namespace

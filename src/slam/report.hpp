@@ -9,6 +9,7 @@
 #include "core/status.hpp"
 #include "loop/loop_report.hpp"
 #include "tracking/stage_timer.hpp"
+#include "tracking/tracked_scan.hpp"
 
 namespace lego_loam_sc {
 
@@ -44,5 +45,8 @@ struct ScanReport {
 
   std::array<double, kStages> milliseconds{};  ///< wall time by stage
 };
+
+/// What became of a scan and of the loops at its key frame.
+ScanReport report_of(const TrackedScan& tracked, std::vector<LoopReport> loops);
 
 }  // namespace lego_loam_sc

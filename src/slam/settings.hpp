@@ -4,13 +4,9 @@
 #include <optional>
 #include <string>
 
-#include "features/settings.hpp"
 #include "graph/settings.hpp"
-#include "key_frames/settings.hpp"
 #include "loop/settings.hpp"
-#include "mapping/settings.hpp"
-#include "odometry/settings.hpp"
-#include "segmentation/settings.hpp"
+#include "tracking/settings.hpp"
 
 namespace lego_loam_sc {
 
@@ -32,15 +28,14 @@ struct OutputSettings {
   }
 };
 
-/// All settings of the SLAM; docs/settings.md explains each.
-struct Settings {
-  SegmentationSettings segmentation;
-  FeatureSettings features;
-  OdometrySettings odometry;
-  MappingSettings mapping;
-  KeyFrameSettings key_frames;
+/// Settings of paper 2.3 (5) and (6).
+struct BackEndSettings {
   LoopSettings loop;
   GraphSettings graph;
+};
+
+/// All settings of the SLAM; docs/settings.md explains each.
+struct Settings : TrackerSettings, BackEndSettings {
   OutputSettings output;
 
   /// Calls visit(group, section) for each group of settings, in the order of the pipeline; nested

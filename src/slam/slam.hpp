@@ -9,11 +9,13 @@
 #include "core/sensor_model.hpp"
 #include "core/state_archive.hpp"
 #include "core/trajectory.hpp"
-#include "graph/pose_graph.hpp"
-#include "key_frames/key_frame.hpp"
 #include "loop/loop_detector.hpp"
+#include "slam/back_end.hpp"
 #include "slam/report.hpp"
 #include "slam/settings.hpp"
+#include "slam/transform_fusion.hpp"
+#include "slam/worker_threads.hpp"
+#include "tracking/tracker.hpp"
 
 namespace lego_loam_sc {
 
@@ -30,9 +32,6 @@ class Slam {
   /// valid.
   Slam(const SensorModel& sensor, const Settings& settings, int threads = 1,
        LoopDetector detector = {}, std::shared_ptr<BlobStore> points = {});
-  ~Slam();
-  Slam(Slam&&) noexcept;
-  Slam& operator=(Slam&&) noexcept;
 
   /// Processes the next scan. Whatever the scan holds, this returns; see Status.
   ScanReport process(const Scan& scan);
@@ -40,38 +39,51 @@ class Slam {
   /// Poses of all scans but those out of order: live as they were (before any loop) and final
   /// (after all loops).
   /// @{
-  const Trajectory& odometry() const;
-  Trajectory trajectory() const;
+  const Trajectory& odometry() const { return fusion_.odometry(); }
+  Trajectory trajectory() const { return fusion_.fuse(back_end_.graph().poses()); }
   /// @}
 
   /// Writes all that later scans depend on, so that a Slam made with the same sensor and settings
-  /// that reads it goes on to the same bits; a detector of the user's own has to look after itself.
-  /// Not after the first scan in order alone, which the second may change: false, and nothing is
-  /// written. `read` throws StateError when the bytes are no such state.
+  /// that reads it goes on to the same bits; the state of a custom detector is not saved. Not after
+  /// the first scan in order alone, which the second may change: false, and nothing is written.
+  /// `read` throws StateError when the bytes are no such state.
   /// @{
   bool write(StateWriter& writer) const;
   void read(StateReader& reader);
   /// @}
 
-  const KeyFrames& key_frames() const;  ///< in the order of time
-  const PoseGraph& graph() const;       ///< has the poses of the key frames and the loops
+  /// Key frames in the order of time, and the graph that has their poses and the loops.
+  /// @{
+  const KeyFrames& key_frames() const { return back_end_.key_frames(); }
+  const PoseGraph& graph() const { return back_end_.graph(); }
+  /// @}
 
-  /// Number of maps that no loop joins: 1 unless the way was lost. Where they lie to each other is
-  /// a guess.
-  int maps() const;
+  /// Number of maps that no loop joins: 1 unless tracking was lost. Their relative poses are
+  /// unconstrained.
+  int maps() const { return back_end_.fragments().maps(); }
 
   /// The sensor's height above the ground, m: as the sensor model says or as estimated; 0 while
   /// unknown.
-  double sensor_height() const;
+  double sensor_height() const { return tracker_.calibration().height; }
 
   /// Turns the LiDAR's axes level: by the mounting angles of the sensor model or as estimated.
-  Eigen::Matrix3d R_level_lidar() const;
+  Eigen::Matrix3d R_level_lidar() const { return R_base_lidar(tracker_.calibration().sensor); }
 
  private:
-  struct State;
-  ScanReport begin_again(const Scan& first, const Scan& second, ScanReport report);
+  Slam(const SensorModel& sensor, const Settings& settings, int threads, LoopDetector detector,
+       std::shared_ptr<KeyFrames> key_frames);
+  BackEnd new_back_end() const;
+  ScanReport take(const Scan& scan);
+  void replace_first(const TrackedScan& first);
 
-  std::unique_ptr<State> state_;
+  double range_noise_;
+  BackEndSettings back_end_settings_;
+  LoopDetector detector_;
+  WorkerThreads threads_;
+  std::shared_ptr<KeyFrames> key_frames_;  // written by the back end, read by the tracker
+  Tracker tracker_;
+  BackEnd back_end_;
+  TransformFusion fusion_;
 };
 
 }  // namespace lego_loam_sc

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/trajectory.hpp"
+#include "tracking/tracked_scan.hpp"
 
 namespace lego_loam_sc {
 
@@ -13,30 +14,35 @@ namespace lego_loam_sc {
 /// the key frames by the pose graph reaches all scans.
 class TransformFusion {
  public:
-  /// Adds the next scan: `key_frame` is the one it hangs on and `T_key_scan` its pose there.
-  void add(std::int64_t stamp_ns, int key_frame, const Pose& T_key_scan);
+  /// Adds the next scan, unless it is out of order.
+  void add(const TrackedScan& tracked);
 
   /// The pose of every scan for the given poses of the key frames.
   Trajectory fuse(std::span<const Pose> T_map_key) const;
+
+  /// The live poses, before any loop.
+  const Trajectory& odometry() const { return odometry_; }
 
   /// See core/state_archive.hpp.
   template <class Archive>
   void state(Archive& archive) {
     archive.grown(entries_);
+    archive.grown(odometry_);
   }
 
  private:
   struct Entry {
     std::int64_t stamp_ns;
     int key_frame;
-    Pose T_key_scan;
+    Pose T_key_lidar;
 
     template <class Archive>
     void state(Archive& archive) {
-      archive(stamp_ns, key_frame, T_key_scan);
+      archive(stamp_ns, key_frame, T_key_lidar);
     }
   };
   std::vector<Entry> entries_;
+  Trajectory odometry_;
 };
 
 }  // namespace lego_loam_sc

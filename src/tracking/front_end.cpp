@@ -3,25 +3,33 @@
 
 #include "segmentation/ground.hpp"
 #include "segmentation/mounting.hpp"
-#include "tracking/stage_timer.hpp"
 
 namespace lego_loam_sc {
 
-FrontEnd run_front_end(const Scan& scan, SensorModel& sensor, double& height,
-                       const Settings& settings, bool find_tilt) {
+SensorModel mounted(SensorModel sensor, const Mounting& mounting) {
+  sensor.mount_roll_deg = mounting.roll_deg;
+  sensor.mount_pitch_deg = mounting.pitch_deg;
+  return sensor;
+}
+
+FrontEnd run_front_end(const Scan& scan, const SensorModel& sensor, double height,
+                       const FrontEndSettings& settings, bool find_tilt) {
   FrontEnd result;
   StageTimer timer(result.milliseconds);
   timer.start(Stage::projection);
-  result.image = project(scan, sensor);
-  if (find_tilt && estimate_tilt(result.image, sensor)) result.image = project(scan, sensor);
+  SensorModel levelled = sensor;
+  result.image = project(scan, levelled);
+  if (find_tilt && estimate_tilt(result.image, levelled)) result.image = project(scan, levelled);
   if (height == 0.0)
-    height = estimate_sensor_height(result.image, sensor, settings.segmentation).value_or(0.0);
+    height = estimate_sensor_height(result.image, levelled, settings.segmentation).value_or(0.0);
+  result.mounting = {levelled.mount_roll_deg, levelled.mount_pitch_deg, height};
 
   timer.start(Stage::segmentation);
-  result.segmentation = segment(result.image, sensor, height, settings.segmentation);
+  result.segmentation = segment(result.image, levelled, height, settings.segmentation);
 
   timer.start(Stage::features);
-  result.features = extract_features(result.image, result.segmentation, sensor, settings.features);
+  result.features =
+      extract_features(result.image, result.segmentation, levelled, settings.features);
   timer.stop();
   return result;
 }

@@ -9,7 +9,8 @@
 namespace lego_loam_sc {
 namespace {
 
-// A key frame that has moved by this much blurs the surfaces of the map: m, and m at this distance.
+// A key frame that has moved by kMoved, m, here or at the distance kArm, m, blurs the surfaces of the
+// map: rebuild.
 constexpr double kMoved = 0.03;
 constexpr double kArm = 10.0;
 // Key frames that make a map to go on with, and those that follow with each scan.
@@ -36,22 +37,40 @@ void LocalMapUpdater::add(int key_frame, const Pose& T_map_key) {
 
 void LocalMapUpdater::clear() {
   in_map_.clear();
-  missing_.clear();
+  pending_.clear();
 }
 
-bool LocalMapUpdater::follow(std::span<const Pose> T_map_key, std::span<const int> places,
-                       const MapFragments& pieces, const KeyFrames& key_frames, Mapper& mapper) {
+bool LocalMapUpdater::on_graph_update(const Correction& correction, const KeyFrames& key_frames,
+                                      Mapper& mapper) {
+  const std::vector<Pose>& T_map_key = correction.T_map_key;
+  if (!correction.accepted) {
+    for (Inserted& entry : pending_) entry.T_map_key = T_map_key[entry.key_frame];
+    return false;
+  }
   const bool moved = has_moved(T_map_key);
   if (moved) {
     clear();
     mapper.clear();
   }
-  missing_.clear();
+  pending_ = missing(correction);
+  if (moved) insert_next(kAtOnce, key_frames, mapper);
+  return moved;
+}
+
+void LocalMapUpdater::insert_pending(const KeyFrames& key_frames, Mapper& mapper) {
+  insert_next(kWithEachScan, key_frames, mapper);
+}
+
+// Key frames near the newest one that the map lacks: the first of each cell, counted from the
+// nearest, which comes last.
+std::vector<LocalMapUpdater::Inserted> LocalMapUpdater::missing(
+    const Correction& correction) const {
+  const std::vector<Pose>& T_map_key = correction.T_map_key;
   const int last = static_cast<int>(T_map_key.size()) - 1;
   std::vector<std::pair<double, int>> near = {{0.0, last}};
-  for (const int k : places) {
+  for (const int k : correction.places) {
     const double away = distance(T_map_key[k], T_map_key[last]);
-    if (away <= kNear * radius_ && pieces.joined(k, last)) near.emplace_back(away, k);
+    if (away <= kNear * radius_) near.emplace_back(away, k);
   }
   std::sort(near.begin(), near.end());
   std::set<Cell> taken;
@@ -60,16 +79,12 @@ bool LocalMapUpdater::follow(std::span<const Pose> T_map_key, std::span<const in
     taken.insert(cell);
     inserted.insert(entry.key_frame);
   }
+  std::vector<Inserted> result;
   for (const auto& [away, k] : near)
-    if (!inserted.contains(k) && taken.insert(cell_of(T_map_key[k])).second) missing_.push_back(k);
-  std::reverse(missing_.begin(), missing_.end());
-  if (moved) put_in(kAtOnce, T_map_key, key_frames, mapper);
-  return moved;
-}
-
-void LocalMapUpdater::go_on(std::span<const Pose> T_map_key, const KeyFrames& key_frames,
-                      Mapper& mapper) {
-  put_in(kWithEachScan, T_map_key, key_frames, mapper);
+    if (!inserted.contains(k) && taken.insert(cell_of(T_map_key[k])).second)
+      result.push_back({k, T_map_key[k]});
+  std::reverse(result.begin(), result.end());
+  return result;
 }
 
 LocalMapUpdater::Cell LocalMapUpdater::cell_of(const Pose& T_map_key) {
@@ -87,13 +102,12 @@ bool LocalMapUpdater::has_moved(std::span<const Pose> T_map_key) const {
   });
 }
 
-void LocalMapUpdater::put_in(int count, std::span<const Pose> T_map_key, const KeyFrames& key_frames,
-                       Mapper& mapper) {
-  for (; count > 0 && !missing_.empty(); --count) {
-    const int k = missing_.back();
-    missing_.pop_back();
-    mapper.insert(key_frames.features(k), T_map_key[k]);
-    in_map_.insert_or_assign(cell_of(T_map_key[k]), Inserted{k, T_map_key[k]});
+void LocalMapUpdater::insert_next(int count, const KeyFrames& key_frames, Mapper& mapper) {
+  for (; count > 0 && !pending_.empty(); --count) {
+    const Inserted next = pending_.back();
+    pending_.pop_back();
+    mapper.insert(key_frames.features(next.key_frame), next.T_map_key);
+    in_map_.insert_or_assign(cell_of(next.T_map_key), next);
   }
 }
 
