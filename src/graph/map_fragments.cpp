@@ -11,14 +11,14 @@ void MapFragments::begin(int key_frame) {
   first_.push_back(key_frame);
 }
 
-int MapFragments::piece_of(int key_frame) const {
+int MapFragments::fragment_of(int key_frame) const {
   return static_cast<int>(std::upper_bound(first_.begin(), first_.end(), key_frame) -
                           first_.begin()) -
          1;
 }
 
 void MapFragments::join(int a, int b) {
-  const auto [kept, gone] = std::minmax({map_[piece_of(a)], map_[piece_of(b)]});
+  const auto [kept, gone] = std::minmax({map_[fragment_of(a)], map_[fragment_of(b)]});
   std::replace(map_.begin(), map_.end(), gone, kept);
 }
 
@@ -26,7 +26,7 @@ int MapFragments::maps() const {
   return static_cast<int>(std::set(map_.begin(), map_.end()).size());
 }
 
-Matrix6 broken_covariance() {
+Matrix6 unconstrained_covariance() {
   constexpr double kSigma = 100.0;        // m
   constexpr double kSigmaRotation = 1.0;  // rad
   Matrix6 covariance = Matrix6::Zero();

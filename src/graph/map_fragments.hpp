@@ -7,22 +7,23 @@
 
 namespace lego_loam_sc {
 
-/// The pieces of the drive. Where the way was lost, key frames go on in a new piece; the pose graph
-/// has it where the prediction ended, which may be wrong by any distance, until a loop joins it
-/// with an earlier one. MapFragments that loops have joined are one map.
+/// The fragments of the drive. Where tracking was lost, a new fragment begins at the predicted pose,
+/// which may be wrong by any distance: the relative poses of fragments are unconstrained until a loop
+/// joins them. Fragments that loops have joined are one map.
 class MapFragments {
  public:
-  /// Begins a piece with this key frame; those before belong to earlier pieces, for good.
+  /// Begins a fragment with this key frame; those before belong to earlier ones, for good.
   void begin(int key_frame);
 
-  bool same(int a, int b) const { return piece_of(a) == piece_of(b); }
-  /// Whether the pose graph knows how the key frames lie to each other.
-  bool joined(int a, int b) const { return map_[piece_of(a)] == map_[piece_of(b)]; }
+  /// Whether two key frames belong to one fragment.
+  bool same(int a, int b) const { return fragment_of(a) == fragment_of(b); }
+  /// Whether they belong to one map: the pose graph knows their relative pose.
+  bool joined(int a, int b) const { return map_[fragment_of(a)] == map_[fragment_of(b)]; }
 
   /// A loop between the two has been found.
   void join(int a, int b);
 
-  int count() const { return static_cast<int>(first_.size()); }
+  int count() const { return static_cast<int>(first_.size()); }  ///< of fragments
   /// Number of maps that no loop joins.
   int maps() const;
 
@@ -33,14 +34,14 @@ class MapFragments {
   }
 
  private:
-  int piece_of(int key_frame) const;
+  int fragment_of(int key_frame) const;
 
-  std::vector<int> first_ = {0};  // key frame of each piece
-  std::vector<int> map_ = {0};    // of each piece: the number of the first piece of its map
+  std::vector<int> first_ = {0};  // key frame of each fragment
+  std::vector<int> map_ = {0};    // of each fragment: number of the first fragment of its map
 };
 
-/// Of the edge to the first key frame of a piece, in the convention of PoseEdge: so wide that any
-/// loop outweighs the prediction, and no wider, since the solver squares it.
-Matrix6 broken_covariance();
+/// Covariance of the edge to the first key frame of a fragment, in the convention of PoseEdge: so
+/// wide that any loop outweighs the prediction, and no wider, since the solver squares it.
+Matrix6 unconstrained_covariance();
 
 }  // namespace lego_loam_sc

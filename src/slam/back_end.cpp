@@ -44,7 +44,7 @@ void BackEnd::add_to_graph(const TrackedKeyFrame& key_frame) {
   if (key_frame.starts_fragment) fragments_.begin(key_frame.number);
   const Matrix6 covariance =
       key_frame.starts_fragment
-          ? broken_covariance()
+          ? unconstrained_covariance()
           : odometry_covariance(key_frame.covariance, key_frame.T_map_key.linear(),
                                 key_frame.localizability, settings_.graph);
   graph_.add_key_frame({key_frame.number - 1, key_frame.number, key_frame.T_last_key, covariance});

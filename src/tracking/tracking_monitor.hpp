@@ -5,8 +5,8 @@
 
 namespace lego_loam_sc {
 
-/// Whether it is known where the sensor is, scan by scan. The odometry tells its motion; after a
-/// gap, or when it fails, only the map can tell the place.
+/// Decides scan by scan whether the place of the sensor is known. Odometry tells it from the last
+/// one; after a gap, or when odometry fails, only the map does.
 class TrackingMonitor {
  public:
   /// Before a scan: the clock has jumped by `jump_s`, the last scan that was matched is `seconds`
@@ -16,7 +16,7 @@ class TrackingMonitor {
   /// Whether the odometry and the map together tell the place of a scan.
   bool place_is_known(bool odometry_solved, const MapMatch& match);
 
-  /// The place has been unknown for so many scans that the map does not hold it.
+  /// The place has been unknown for ten scans in a row: the map does not hold it.
   bool should_start_new_map() const;
 
   void clear() { *this = {}; }
@@ -24,12 +24,12 @@ class TrackingMonitor {
   /// See core/state_archive.hpp.
   template <class Archive>
   void state(Archive& archive) {
-    archive(in_doubt_, lost_scans_);
+    archive(after_gap_, lost_scans_);
   }
 
  private:
-  bool in_doubt_ = false;  // the motion does not tell the place, the map has to
-  int lost_scans_ = 0;     // in a row; blind ones do not count
+  bool after_gap_ = false;  // only the map can tell the place
+  int lost_scans_ = 0;      // in a row, without those of too few points
 };
 
 }  // namespace lego_loam_sc
