@@ -8,7 +8,7 @@
 
 namespace lego_loam_sc {
 
-/// A city round a route (see read_route): its streets follow the route, with kerbs, pavements,
+/// A city round a route (see read_route in io/trajectory.hpp): its streets follow the route, with kerbs, pavements,
 /// parked cars, trees, lamps, houses and gardens, and open into side streets. The vehicle moves as
 /// on the route, smoothed; the ground climbs as the route does, but a place has one height however
 /// often it is passed. Throws InputError when no vehicle drives like that.

@@ -10,8 +10,6 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "core/time.hpp"
-#include "io/kitti_folder.hpp"
-#include "io/trajectory.hpp"
 
 namespace lego_loam_sc {
 namespace {
@@ -108,19 +106,6 @@ std::vector<Sample> smoothed(const std::vector<Sample>& samples, double period) 
 }
 
 }  // namespace
-
-Trajectory read_route(const std::filesystem::path& path) {
-  PoseFile file = read_poses(path);
-  if (!file.has_stamps) {
-    const Eigen::Matrix3d axes = R_camera_lidar();
-    for (StampedPose& stamped : file.poses) {
-      stamped.stamp_ns *= 100'000'000;
-      stamped.pose.translation() = axes.transpose() * stamped.pose.translation();
-      stamped.pose.linear() = axes.transpose() * stamped.pose.linear() * axes;
-    }
-  }
-  return std::move(file.poses);
-}
 
 Track make_track(const Trajectory& route) {
   check(route);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <filesystem>
 
 #include "core/trajectory.hpp"
 #include "sim/uniform_spline.hpp"
@@ -14,11 +13,6 @@ struct Track {
   UniformSpline<Eigen::Vector3d> plan;  ///< x, y (m) and yaw (rad, not wrapped) over time (s)
   UniformSpline<double> height;         ///< m, over time (s)
 };
-
-/// Reads a route: a KITTI file (poses of a camera, x right, y down, z forward, ten a second) or a
-/// TUM file (poses with x forward, y left, z up, and stamps). The result has the latter's axes and
-/// the poses of the file. Throws InputError when it is no route for a vehicle, names the place.
-Trajectory read_route(const std::filesystem::path& path);
 
 /// The smooth motion through the poses of a route from the first stamp on, free of the jumps of a
 /// recording: what lasts less than two seconds is smoothed away. Throws InputError when the route

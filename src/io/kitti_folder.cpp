@@ -41,12 +41,6 @@ std::string bin_bytes(const Scan& scan) {
 
 }  // namespace
 
-Eigen::Matrix3d R_camera_lidar() {
-  Eigen::Matrix3d axes;
-  axes << 0, -1, 0, 0, 0, -1, 1, 0, 0;
-  return axes;
-}
-
 KittiFolder::KittiFolder(fs::path folder, const DatasetFacts& facts) : folder_(std::move(folder)) {
   std::error_code error;
   if (fs::exists(folder_, error) && !fs::is_empty(folder_, error))

@@ -10,9 +10,6 @@
 
 namespace lego_loam_sc {
 
-/// The axes of KITTI's camera: R_camera_lidar, x right, y down, z forward.
-Eigen::Matrix3d R_camera_lidar();
-
 /// Writes scans and their truth as a folder in the form of a KITTI sequence:
 ///   velodyne/000000.bin   float32 x y z intensity, in the order of the scan
 ///   times.txt             seconds of each scan

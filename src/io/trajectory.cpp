@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -63,6 +64,12 @@ Pose pose_from_kitti(const Numbers& v, const std::string& where) {
 }
 
 }  // namespace
+
+Eigen::Matrix3d R_camera_lidar() {
+  Eigen::Matrix3d axes;
+  axes << 0, -1, 0, 0, 0, -1, 1, 0, 0;
+  return axes;
+}
 
 std::string tum_line(const StampedPose& stamped) {
   const Eigen::Quaterniond q(stamped.pose.linear());
@@ -126,6 +133,19 @@ PoseFile parse_poses(std::string_view text, const std::string& file) {
     throw InputError(file + " holds no pose; it must be a TUM or KITTI trajectory");
   result.has_stamps = columns == kTumColumns;
   return result;
+}
+
+Trajectory read_route(const std::filesystem::path& path) {
+  PoseFile file = read_poses(path);
+  if (!file.has_stamps) {
+    const Eigen::Matrix3d axes = R_camera_lidar();
+    for (StampedPose& stamped : file.poses) {
+      stamped.stamp_ns *= 100'000'000;
+      stamped.pose.translation() = axes.transpose() * stamped.pose.translation();
+      stamped.pose.linear() = axes.transpose() * stamped.pose.linear() * axes;
+    }
+  }
+  return std::move(file.poses);
 }
 
 }  // namespace lego_loam_sc

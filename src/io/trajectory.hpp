@@ -10,6 +10,9 @@
 
 namespace lego_loam_sc {
 
+/// The axes of KITTI's camera: x right, y down, z forward.
+Eigen::Matrix3d R_camera_lidar();
+
 /// A line of a TUM file: stamp (s), x y z (m), qx qy qz qw; nine decimals, with line end.
 std::string tum_line(const StampedPose& stamped);
 
@@ -35,5 +38,10 @@ PoseFile read_poses(const std::filesystem::path& path);
 
 /// The same for the text of a file; messages begin with `file`.
 PoseFile parse_poses(std::string_view text, const std::string& file);
+
+/// Reads the trajectory of a vehicle: a TUM file (x forward, y left, z up, with stamps), or a KITTI
+/// file (poses of the camera, ten a second), whose poses are turned to the axes of the former.
+/// Throws InputError as read_poses does.
+Trajectory read_route(const std::filesystem::path& path);
 
 }  // namespace lego_loam_sc

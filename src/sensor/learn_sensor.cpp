@@ -164,7 +164,7 @@ void learn_period(std::span<const Scan> scans, LearnedSensor& learned) {
 
 }  // namespace
 
-LearnedSensor learn_sensor(std::span<const Scan> scans) {
+LearnedSensor learn_sensor(std::span<const Scan> scans, std::span<const SensorModel> presets) {
   if (count_returns(scans) < 1000)
     throw InputError("the scans have " + std::to_string(count_returns(scans)) +
                      " points with a return, too few to learn a sensor from");
@@ -175,7 +175,7 @@ LearnedSensor learn_sensor(std::span<const Scan> scans) {
   learn_ranges(scans, learned);
   learn_rotation(scans.front(), beams.of_point.front(), learned);
   learn_period(scans, learned);
-  if (const auto preset = nearest_preset(beams.elevation_deg))
+  if (const auto preset = nearest_preset(beams.elevation_deg, presets))
     learned.notes.push_back("the nearest preset is " + preset->name + ", " +
                             to_fixed(preset->difference_deg, 3) + " degrees off on average");
   if (const auto fault = validate(learned.sensor))
