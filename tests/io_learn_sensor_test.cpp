@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "io/preset_text.hpp"
+#include "io/presets.hpp"
 #include "io/sensor_presets.hpp"
 #include "io/sensor_yaml.hpp"
 #include "io_test_files.hpp"
@@ -104,7 +104,7 @@ TEST(LearnSensor, TheBlindRangeIsWhereTheNearestReturnsAre) {
   EXPECT_NEAR(learn_sensor(near, sensor_presets()).sensor.min_range, 0.6, 1e-9);
   const LearnedSensor far = learn_sensor(scans_of(sensor), sensor_presets());
   EXPECT_EQ(far.sensor.min_range, 1.0);
-  EXPECT_TRUE(has_note(far, "nothing was near enough to show the blind zone"));
+  EXPECT_TRUE(has_note(far, "no return was close enough to show the blind zone"));
 }
 
 // A rosette: each of the six lines sweeps the whole field of view, as a Livox Avia's do.
@@ -130,7 +130,7 @@ TEST(LearnSensor, ASensorThatDoesNotSpinIsRefusedByNameWithTheReason) {
   const Scan scan = rosette(true)[0];
   for (const std::string& message : {error_of([&] { recognise_sensor(scan, sensor_presets()); }),
                                      *sensor_mismatch(scan, load_sensor("vlp16"))})
-    EXPECT_NE(message.find("degrees of elevation, so that the ring field numbers no beams"),
+    EXPECT_NE(message.find("degrees of elevation, so the ring field does not number beams"),
               message.npos)
         << message;
 }

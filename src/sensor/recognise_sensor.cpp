@@ -17,14 +17,14 @@
 namespace lego_loam_sc {
 namespace {
 
-// Chance alone puts 30 % of the points within this share of the spacing to a beam.
+// By chance 30 % of the points lie within this share of the spacing to a beam.
 constexpr double kNearShare = 0.15;
 constexpr double kFitShare = 0.8;
 constexpr double kFarDeg = 2.0;
 constexpr double kStrayShare = 0.05;
 constexpr double kMisfitShare = 0.2;
-constexpr double kRingShare = 0.9;  // of the beams of a preset that must be there
-constexpr double kNearDeg = 0.5;    // on average; units of one model differ by up to this much
+constexpr double kRingShare = 0.9;  // of the beams of a preset that must be present
+constexpr double kNearDeg = 0.5;    // mean difference between units of one model
 
 struct Elevations {
   std::vector<double> deg;  // of the points with a return
@@ -44,13 +44,13 @@ Elevations measure_elevations(const Scan& scan) {
   return elevations;
 }
 
-// Distance from an elevation to the nearest beam, and the spacing of the beams there, deg.
+// Distance from an elevation to the nearest beam, and the local spacing of the beams, deg.
 struct NearestBeam {
   double distance;
   double spacing;
 };
 
-// `beams` has two at least.
+// `beams` has at least two entries.
 NearestBeam nearest_beam(const std::vector<double>& beams, double elevation) {
   const auto above = std::lower_bound(beams.begin(), beams.end(), elevation);
   if (above == beams.begin()) return {beams.front() - elevation, beams[1] - beams[0]};
@@ -155,7 +155,7 @@ std::optional<NearestPreset> nearest_preset(const std::vector<double>& elevation
 }
 
 SensorModel recognise_sensor(const Scan& scan, std::span<const SensorModel> presets) {
-  if (const auto fault = fault_of_rings(beams_of_rings({&scan, 1})))
+  if (const auto fault = ring_fault(beams_of_rings({&scan, 1})))
     throw InputError("the sensor is not recognised: " + *fault);
   const Elevations elevations = measure_elevations(scan);
   const SensorModel* sensor =
@@ -170,7 +170,7 @@ SensorModel recognise_sensor(const Scan& scan, std::span<const SensorModel> pres
 std::optional<std::string> sensor_mismatch(const Scan& scan, const SensorModel& sensor) {
   const Elevations elevations = measure_elevations(scan);
   if (elevations.deg.empty()) return std::nullopt;
-  if (const auto fault = fault_of_rings(beams_of_rings({&scan, 1}))) return fault;
+  if (const auto fault = ring_fault(beams_of_rings({&scan, 1}))) return fault;
   const auto& beams = sensor.elevation_deg;
   if (count_rings(scan) <= beams.size() && share_outside(elevations, beams) <= kMisfitShare)
     return std::nullopt;
