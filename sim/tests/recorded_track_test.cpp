@@ -62,7 +62,7 @@ TEST(SimRecordedTrack, SmoothsTheJumpsOfARecordingAway) {
   for (double t = 1.0; t < 61.0; t += 0.1)
     worst = std::max(worst, std::abs(track.plan.derivative(t).head<2>().norm() - speed));
   EXPECT_LT(worst, 0.3);
-  EXPECT_NEAR(path_of(track).path.end(), 62.0 * speed, 0.001 * 62.0 * speed + 1.0);
+  EXPECT_NEAR(path_of(track).curve.end(), 62.0 * speed, 0.001 * 62.0 * speed + 1.0);
 }
 
 TEST(SimRecordedTrack, ResamplesARouteOfAnotherRate) {
@@ -73,11 +73,11 @@ TEST(SimRecordedTrack, ResamplesARouteOfAnotherRate) {
 
 TEST(SimRecordedTrack, TheWayIsTheSameByDistance) {
   const Track track = make_track(circle());
-  const TrackPath way = path_of(track);
+  const TrackPath path = path_of(track);
   for (double t = 0.0; t < 60.0; t += 0.7) {
-    const double travelled = way.travelled.at(t);
+    const double travelled = path.travelled.at(t);
     EXPECT_NEAR(travelled, speed * t, 0.05);
-    EXPECT_LT((way.path.at(travelled) - track.plan.at(t).head<2>()).norm(), 0.05);
+    EXPECT_LT((path.curve.at(travelled) - track.plan.at(t).head<2>()).norm(), 0.05);
   }
 }
 

@@ -53,8 +53,7 @@ Beams find_beams(std::span<const Scan> scans, std::vector<std::string>& notes) {
         std::to_string(count_returns(scans)) +
         " points without ring numbers form no lines of constant elevation: either the sensor does "
         "not spin (a Livox or solid-state LiDAR has no rings), or the points were transformed; "
-        "give "
-        "the scans as the driver wrote them, with their ring numbers");
+        "give the scans as the driver wrote them, with their ring numbers");
   for (double& elevation : beams.elevation_deg) elevation = std::round(1e3 * elevation) / 1e3;
   notes.push_back(std::to_string(beams.elevation_deg.size()) + " beams between " +
                   to_fixed(beams.elevation_deg.front(), 2) + " and " +
@@ -181,7 +180,7 @@ LearnedSensor learn_sensor(std::span<const Scan> scans, std::span<const SensorMo
     learned.notes.push_back("the nearest preset is " + preset->name + ", " +
                             to_fixed(preset->difference_deg, 3) + " degrees off on average");
   if (const auto fault = validate(learned.sensor))
-    throw InputError("no sensor can be made of these scans: " + *fault);
+    throw InputError("these scans yield no valid sensor: " + *fault);
   return learned;
 }
 
