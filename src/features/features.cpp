@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "features/feature_row.hpp"
 
@@ -182,16 +183,24 @@ Features extract(const RangeImage& image, const Segmentation& segmentation,
   return features;
 }
 
-// All points above the ground except smooth surfaces: along a surface its points are arbitrary, and
-// their pattern moves with the sensor.
+// All points above the ground except smooth surfaces, thinned along each row: along a smooth surface
+// its points are arbitrary, and their pattern moves with the sensor.
 std::vector<FeaturePoint> scattered_points(const RangeImage& image,
                                            const Segmentation& segmentation,
-                                           const std::vector<std::uint8_t>& smooth) {
+                                           const std::vector<std::uint8_t>& smooth,
+                                           double spacing) {
+  const auto min_squared = static_cast<float>(spacing * spacing);
   std::vector<FeaturePoint> points;
-  for (int row = 0; row < image.rows; ++row)
-    for (std::uint32_t i = image.row_begin[row]; i < image.row_begin[row + 1]; ++i)
-      if (segmentation.label[i] != Label::ground && !smooth[i])
-        points.push_back(feature_point(image, row, i, segmentation.label[i]));
+  for (int row = 0; row < image.rows; ++row) {
+    Eigen::Vector3f last = Eigen::Vector3f::Constant(std::numeric_limits<float>::max());
+    for (std::uint32_t i = image.row_begin[row]; i < image.row_begin[row + 1]; ++i) {
+      if (segmentation.label[i] == Label::ground || smooth[i] ||
+          (image.points[i] - last).squaredNorm() < min_squared)
+        continue;
+      last = image.points[i];
+      points.push_back(feature_point(image, row, i, segmentation.label[i]));
+    }
+  }
   return points;
 }
 
@@ -209,12 +218,20 @@ Features extract_edges_and_planars(const RangeImage& image, const Segmentation& 
 
 }  // namespace
 
+std::vector<FeaturePoint> subsample(const std::vector<FeaturePoint>& points, int count) {
+  const auto wanted = static_cast<std::size_t>(count);
+  if (points.size() <= wanted) return points;
+  std::vector<FeaturePoint> taken(wanted);
+  for (std::size_t i = 0; i < wanted; ++i) taken[i] = points[i * points.size() / wanted];
+  return taken;
+}
+
 Features extract_features(const RangeImage& image, const Segmentation& segmentation,
                           const SensorModel& sensor, const FeatureSettings& settings) {
   std::vector<std::uint8_t> smooth;
   Features features = extract_edges_and_planars(image, segmentation, sensor, settings, smooth);
-  if (static_cast<int>(features.edges_large.size()) < settings.min_edges)
-    features.scattered = scattered_points(image, segmentation, smooth);
+  if (settings.scattered)
+    features.scattered = scattered_points(image, segmentation, smooth, settings.planar_spacing);
   return features;
 }
 

@@ -30,20 +30,23 @@ struct FeaturePoint {
 };
 
 /// The feature sets of paper 2.3 (2). The small sets hold the sharpest edges and the flattest
-/// points, F_e and F_p; the large sets, with a double-struck F in the paper, contain them. Trees in
-/// a field are too narrow for edges and too small for clusters: where edges are few, `scattered`
-/// holds all rough points above the ground. All sets are in ascending order of row and column.
+/// points, F_e and F_p; the large sets, with a double-struck F in the paper, contain them. What
+/// stands on the ground but is neither a clear edge nor smooth (vegetation, poles, people, small
+/// structures) often holds more of the pose than the edges do: `scattered`. All sets are in ascending order of row and column.
 struct Features {
   std::vector<FeaturePoint> edges_sharp;    ///< F_e
   std::vector<FeaturePoint> planars_flat;   ///< F_p
   std::vector<FeaturePoint> edges_large;    ///< large F_e
   std::vector<FeaturePoint> planars_large;  ///< large F_p
-  std::vector<FeaturePoint> scattered;      ///< rough points above the ground where edges are few
+  std::vector<FeaturePoint> scattered;      ///< rough points above the ground
 };
 
 /// The sets that maps and key frames consist of.
 inline constexpr std::array kMapSets = {&Features::planars_large, &Features::edges_large,
                                         &Features::scattered};
+
+/// At most `count` of the points, evenly spaced in their order.
+std::vector<FeaturePoint> subsample(const std::vector<FeaturePoint>& points, int count);
 
 /// Selects features by roughness, evenly over the rows and their sub-images.
 Features extract_features(const RangeImage& image, const Segmentation& segmentation,

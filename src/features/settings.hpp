@@ -15,7 +15,7 @@ struct FeatureSettings {
   int planars_large = 0;
   bool flat_from_ground_only = true;
   int min_ground_flats = 100;
-  int min_edges = 100;
+  bool scattered = true;
   double planar_spacing = 0.2;
   int suppressed_neighbours = 5;
   int max_column_gap = 2;
@@ -38,11 +38,10 @@ struct FeatureSettings {
     visit("flat_from_ground_only", s.flat_from_ground_only, "F_p is taken from the ground alone");
     visit("min_ground_flats", s.min_ground_flats, 0, 100000,
           "with fewer points of F_p on the ground, it is taken from everywhere after all");
-    visit("min_edges", s.min_edges, 0, 100000,
-          "with fewer edges in a scan, all that stands on the ground is matched with the map; 0 = "
-          "never");
+    visit("scattered", s.scattered,
+          "all rough points above the ground are matched with the map too, not edges alone");
     visit("planar_spacing", s.planar_spacing, 0.0, 10.0,
-          "m; distance along a row between points of the large planar set");
+          "m; distance along a row between points of the large planar set, and between scattered points");
     visit("suppressed_neighbours", s.suppressed_neighbours, 0, 20,
           "points on each side of a pick that cannot be picked any more");
     visit("max_column_gap", s.max_column_gap, 1, 100,

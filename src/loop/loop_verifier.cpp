@@ -57,7 +57,7 @@ Pose register_coarse_to_fine(const Features& query, LocalMap& map, Pose pose, do
     const double reach = kReachVoxels * settings.voxel_size * (1 << level);
     MatchedSurfaces surfaces;
     for (int k = 0; k < settings.iterations; ++k) {
-      const auto correspondences = map.match(query, pose, reach, range_noise, level, surfaces);
+      const auto correspondences = map.match(query, pose, reach, range_noise, level, surfaces).all;
       if (static_cast<int>(correspondences.size()) < kMinMatches) break;
       const double scale = robust_scale(correspondences, pose, kKernel);
       const auto result = levenberg_marquardt<6>(
@@ -83,7 +83,7 @@ LoopVerification judge(const Features& query, LocalMap& map, const Pose& pose, d
   result.overlap = overlap(query, map, pose);
   MatchedSurfaces surfaces;
   const auto correspondences =
-      map.match(query, pose, kReachVoxels * settings.voxel_size, range_noise, 0, surfaces);
+      map.match(query, pose, kReachVoxels * settings.voxel_size, range_noise, 0, surfaces).all;
   if (static_cast<int>(correspondences.size()) < kMinMatches) return result;
 
   const double scale = robust_scale(correspondences, pose, kKernel);

@@ -87,25 +87,34 @@ void match_with(std::vector<SurfaceMap>& maps, std::span<const double> max_range
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Surface& surface = entries[i].surface;
     if (surface.kind == Surface::Kind::none) continue;
-    const Eigen::Vector3d point = points[i].position.cast<double>();
-    const double weight = 1.0 / (range_noise * range_noise + surface.variance);
-    const double range_difference = point.head<2>().norm() - surface.range;
-    const Correspondence c{kind_of(surface),  point,        surface.mean,
-                           surface.direction, weight,       range_difference,
-                           points[i].time,    points[i].row};
+    const Correspondence c = correspondence_with(surface, points[i], range_noise);
     if (distance(c, T_map_points) <= max_distance) correspondences.push_back(c);
   }
 }
 
 }  // namespace
 
+Correspondence correspondence_with(const Surface& surface, const FeaturePoint& feature,
+                                   double range_noise) {
+  const Eigen::Vector3d point = feature.position.cast<double>();
+  return {kind_of(surface),
+          point,
+          surface.mean,
+          surface.direction,
+          1.0 / (range_noise * range_noise + surface.variance),
+          point.head<2>().norm() - surface.range,
+          feature.time,
+          feature.row};
+}
+
 LocalMap::LocalMap(double voxel_size, int levels, double planarity, double row_spacing) {
   for (int level = 0; level < levels; ++level) {
     const double size = voxel_size * (1 << level);
-    if (level < levels - 1 && row_spacing > 0.0) max_range_.push_back(2.0 * size / row_spacing);
+    const double max_range = row_spacing > 0.0 ? 2.0 * size / row_spacing : 0.0;
+    if (level < levels - 1 && row_spacing > 0.0) max_range_.push_back(max_range);
     planes_.emplace_back(SurfaceMapSettings{Surface::Kind::plane, size, planarity});
     lines_.emplace_back(SurfaceMapSettings{Surface::Kind::line, size, planarity});
-    scattered_.emplace_back(SurfaceMapSettings{Surface::Kind::point, size, planarity});
+    scattered_.emplace_back(SurfaceMapSettings{Surface::Kind::point, size, planarity, max_range});
   }
 }
 
@@ -115,17 +124,20 @@ void LocalMap::insert(const Features& features, const Pose& T_map_points) {
   insert_into(scattered_, {}, features.scattered, T_map_points);
 }
 
-std::vector<Correspondence> LocalMap::match(const Features& features, const Pose& T_map_points,
-                                            double max_distance, double range_noise,
-                                            int first_level, MatchedSurfaces& cache) {
-  std::vector<Correspondence> correspondences;
+MapCorrespondences LocalMap::match(const Features& features, const Pose& T_map_points,
+                                   double max_distance, double range_noise, int first_level,
+                                   MatchedSurfaces& cache) {
+  MapCorrespondences found;
   match_with(planes_, max_range_, features.planars_large, T_map_points, max_distance, range_noise,
-             first_level, cache.planes, correspondences);
+             first_level, cache.planes, found.all);
+  found.end[0] = found.all.size();
   match_with(lines_, max_range_, features.edges_large, T_map_points, max_distance, range_noise,
-             first_level, cache.lines, correspondences);
+             first_level, cache.lines, found.all);
+  found.end[1] = found.all.size();
   match_with(scattered_, {}, features.scattered, T_map_points, max_distance, range_noise,
-             first_level, cache.scattered, correspondences);
-  return correspondences;
+             first_level, cache.scattered, found.all);
+  found.end[2] = found.all.size();
+  return found;
 }
 
 bool LocalMap::occupied(const Eigen::Vector3d& point) const {

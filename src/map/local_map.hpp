@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <span>
 #include <vector>
 
 #include "core/pose.hpp"
@@ -25,6 +27,21 @@ struct MatchedSurfaces {
   std::vector<Entry> planes, lines, scattered;
 };
 
+/// Correspondences of planar points, edges and scattered points, in this order.
+struct MapCorrespondences {
+  std::vector<Correspondence> all;
+  std::array<std::size_t, 3> end{};  ///< of each set in `all`
+
+  std::span<const Correspondence> set(std::size_t i) const {
+    const std::size_t begin = i == 0 ? 0 : end[i - 1];
+    return std::span(all).subspan(begin, end[i] - begin);
+  }
+};
+
+/// The correspondence of a point with a surface, whose kind is not `none`.
+Correspondence correspondence_with(const Surface& surface, const FeaturePoint& point,
+                                   double range_noise);
+
 /// The local map as planes, lines and points: for each of several voxel sizes a surface map of the
 /// planar features, one of the edges and one of the scattered points. Used by the mapper and the
 /// loop verifier.
@@ -42,9 +59,9 @@ class LocalMap {
   /// Correspondences of the points of these sets with the surface on the finest level that has one,
   /// from `first_level` (0 = finest) on, when it is within `max_distance` (m). `cache` holds the
   /// surfaces found at a previous pose, or is empty; it is updated.
-  std::vector<Correspondence> match(const Features& features, const Pose& T_map_points,
-                                    double max_distance, double range_noise, int first_level,
-                                    MatchedSurfaces& cache);
+  MapCorrespondences match(const Features& features, const Pose& T_map_points,
+                           double max_distance, double range_noise, int first_level,
+                           MatchedSurfaces& cache);
 
   /// Whether the finest voxel of `point` (map frame) holds points.
   bool occupied(const Eigen::Vector3d& point) const;

@@ -98,7 +98,8 @@ void SurfaceMap::refit_if_grown(Block& block, const Cell& corner) {
   block.due = revision_ + 1 + std::min(block.count / kPointsPerRevision, kMaxRevisions);
 }
 
-Surface::Kind SurfaceMap::kind_of(const Eigen::Vector3d& variance, std::uint32_t count) const {
+Surface::Kind SurfaceMap::kind_of(const Eigen::Vector3d& variance, std::uint32_t count,
+                                  double range) const {
   const double min_variance = std::pow(kMinExtent * settings_.voxel_size, 2);
   const double ratio =
       std::min(settings_.planarity, kMaxDirectionSigma * kMaxDirectionSigma * count);
@@ -107,8 +108,12 @@ Surface::Kind SurfaceMap::kind_of(const Eigen::Vector3d& variance, std::uint32_t
   switch (settings_.kind) {
     case Surface::Kind::plane: return plane ? Surface::Kind::plane : Surface::Kind::none;
     case Surface::Kind::line: return line ? Surface::Kind::line : Surface::Kind::none;
-    default: return Surface::Kind::point;
+    default: break;
   }
+  if (settings_.max_shape_range > 0.0 && range > settings_.max_shape_range)
+    return Surface::Kind::point;
+  if (plane) return Surface::Kind::plane;
+  return line ? Surface::Kind::line : Surface::Kind::point;
 }
 
 void SurfaceMap::fit(const std::array<const Voxel*, 8>& voxels, std::uint32_t count,
@@ -139,7 +144,7 @@ void SurfaceMap::fit(const std::array<const Voxel*, 8>& voxels, std::uint32_t co
   block.count = count;
   block.mean = mean.cast<float>();
   block.range = static_cast<float>(range / count);
-  block.kind = kind_of(variance, count);
+  block.kind = kind_of(variance, count, range / count);
   switch (block.kind) {
     case Surface::Kind::plane:
       block.direction = eigen.eigenvectors().col(0).cast<float>();

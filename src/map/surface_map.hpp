@@ -23,9 +23,12 @@ struct Surface {
 };
 
 struct SurfaceMapSettings {
-  Surface::Kind kind = Surface::Kind::plane;  ///< what is fitted
+  Surface::Kind kind = Surface::Kind::plane;  ///< planes or lines only; point: what fits best
   double voxel_size = 0.5;                    ///< m
   double planarity = 0.1;                     ///< maximum eigenvalue ratio, see surface_of
+  /// m; of kind `point`: farther away a block holds a single row of the sensor, and the line or
+  /// plane through it would be that of the beam, not of the object. 0 = no limit.
+  double max_shape_range = 0.0;
 };
 
 /// The key of no block: the outermost cells of the grid are never used, see voxel_table.hpp.
@@ -103,7 +106,7 @@ class SurfaceMap {
   void add(const Eigen::Vector3d& point, double range, const Cell& cell);
   Eigen::Vector3d corner_of(const Cell& cell, double cells) const;
   // `variance`: eigenvalues of the covariance of a block's points, ascending, m^2.
-  Surface::Kind kind_of(const Eigen::Vector3d& variance, std::uint32_t count) const;
+  Surface::Kind kind_of(const Eigen::Vector3d& variance, std::uint32_t count, double range) const;
   void refit_if_grown(Block& block, const Cell& corner);
   void fit(const std::array<const Voxel*, 8>& voxels, std::uint32_t count, Block& block) const;
 

@@ -3,10 +3,12 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "map/voxel_filter.hpp"
-#include "mapping/sweep_priors.hpp"
+#include "mapping/observability.hpp"
+#include "mapping/pose_search.hpp"
 #include "registration/correspondence.hpp"
 #include "registration/deskew.hpp"
 
@@ -18,6 +20,13 @@ constexpr RobustKernel kKernel{.factor = 2.0, .min_scale = 1.0, .max_scale = 20.
 constexpr double kMinSpacing = 0.125;
 // Association and solve are repeated until the pose moves by less: 0.5 mm or 0.5 mrad.
 constexpr double kPoseConvergence = 5e-4;
+// Where the sensor may be after an unknown motion: m/s, and deg from one scan to the next.
+constexpr double kMaxSpeed = 40.0;
+constexpr double kMaxTurnDeg = 20.0;
+// Poses of the search that are refined.
+constexpr int kSearchStarts = 5;
+// A direction with a smaller share of the constraints may be degenerate.
+constexpr double kWeakShare = 0.05;
 // Voxels beyond the radius are removed after each movement by this share of it.
 constexpr double kEvictionShare = 0.2;
 
@@ -51,11 +60,17 @@ void apply_velocity_change(std::vector<Correspondence>& correspondences, const V
     c.point += c.time * (change.head<3>() + change.tail<3>().cross(c.point));
 }
 
-// In degenerate directions the odometry matches noise with noise and underestimates the motion, so
-// the constant-velocity prediction replaces it there.
-Pose predict_where_degenerate(const ScanGuess& guess, const Localizability& l) {
-  const Vector6 delta = perturbation_between(guess.T_map_lidar, guess.T_map_predicted);
-  return perturb(guess.T_map_lidar, degenerate_component(l, delta));
+// In degenerate directions a registration follows noise, which does not move, so the
+// constant-velocity prediction replaces it there.
+Pose predict_where_degenerate(const Pose& pose, const Pose& predicted, const Localizability& l) {
+  return perturb(pose, degenerate_component(l, perturbation_between(pose, predicted)));
+}
+
+// m, of the matched points from the sensor.
+double mean_range(const std::vector<Correspondence>& correspondences) {
+  double sum = 0.0;
+  for (const Correspondence& c : correspondences) sum += c.point.norm();
+  return sum / static_cast<double>(correspondences.size());
 }
 
 // The matched share must be reached by all points or by planar and edge points alone: the map has
@@ -74,21 +89,46 @@ bool has_enough_matches(const std::vector<Correspondence>& correspondences, cons
               settings.min_matched_share * static_cast<double>(surface_points));
 }
 
-int count_inliers(const std::vector<Correspondence>& correspondences, const Pose& pose) {
+using Scales = std::array<double, 3>;
+
+// Of the kernel of each set: the ground must not decide which edges are outliers.
+Scales robust_scales(const MapCorrespondences& correspondences, const Pose& pose) {
+  Scales scales;
+  for (std::size_t i = 0; i < scales.size(); ++i)
+    scales[i] = robust_scale(correspondences.set(i), pose, kKernel);
+  return scales;
+}
+
+NormalEquations<12> sweep_equations(const MapCorrespondences& correspondences, const Sweep& at,
+                                    const Scales& scales) {
+  NormalEquations<12> sum;
+  for (std::size_t i = 0; i < scales.size(); ++i) {
+    const NormalEquations<12> of_set = sweep_normal_equations(
+        correspondences.set(i), at.T_map_lidar, at.velocity_change, scales[i]);
+    sum.H += of_set.H;
+    sum.g += of_set.g;
+    sum.cost += of_set.cost;
+  }
+  return sum;
+}
+
+int count_inliers(const MapCorrespondences& correspondences, const Pose& pose) {
   return static_cast<int>(std::count_if(
-      correspondences.begin(), correspondences.end(),
+      correspondences.all.begin(), correspondences.all.end(),
       [&](const Correspondence& c) { return distance(c, pose) * std::sqrt(c.weight) < 3.0; }));
 }
 
-double weighted_rmse(const std::vector<Correspondence>& correspondences, const Pose& pose,
-                     double scale) {
+double weighted_rmse(const MapCorrespondences& correspondences, const Pose& pose,
+                     const Scales& scales) {
   double sum = 0.0;
   double weights = 0.0;
-  for (const Correspondence& c : correspondences) {
-    const double d = distance(c, pose);
-    const double weight = robust_weight(c, d, scale) / c.weight;
-    sum += weight * d * d;
-    weights += weight;
+  for (std::size_t i = 0; i < scales.size(); ++i) {
+    for (const Correspondence& c : correspondences.set(i)) {
+      const double d = distance(c, pose);
+      const double weight = robust_weight(c, d, scales[i]) / c.weight;
+      sum += weight * d * d;
+      weights += weight;
+    }
   }
   return weights > 0.0 ? std::sqrt(sum / weights) : 0.0;
 }
@@ -116,14 +156,13 @@ PosePrior pose_prior(const Pose& mean, const ScanGuess& guess, const MappingSett
 }
 
 // Minimises over the pose and the velocity of a sweep that was de-skewed with `twist`.
-LevenbergMarquardtResult solve(std::span<const Correspondence> correspondences,
+LevenbergMarquardtResult solve(const MapCorrespondences& correspondences, const Scales& scales,
                                const PosePrior& prior, const VelocityPrior& velocity_prior,
-                               const Vector6& twist, double scale, int iterations, Sweep& sweep) {
+                               const Vector6& twist, int iterations, Sweep& sweep) {
   return levenberg_marquardt<12>(
       sweep, iterations,
       [&](const Sweep& at) {
-        NormalEquations<12> equations =
-            sweep_normal_equations(correspondences, at.T_map_lidar, at.velocity_change, scale);
+        NormalEquations<12> equations = sweep_equations(correspondences, at, scales);
         prior.add_to(equations, at.T_map_lidar);
         velocity_prior.add_to(equations, at, twist);
         scale_velocity_unknowns(equations);
@@ -150,57 +189,123 @@ void Mapper::adapt_spacing(int points) {
                         kMinSpacing * settings_.match_spacing, settings_.match_spacing);
 }
 
-MapMatch Mapper::refine(const Features& features, const ScanGuess& guess) {
-  const Features points = voxel_filter(features, spacing_);
-  MapMatch match = unmatched(points, guess, settings_);
-  adapt_spacing(match.points);
+Features Mapper::points_to_match(const Features& features) {
+  Features points = voxel_filter(features, spacing_);
+  adapt_spacing(static_cast<int>(points.planars_large.size() + points.edges_large.size()));
+  points.scattered = subsample(points.scattered, settings_.scattered_points);
+  return points;
+}
 
-  Pose pose = guess.T_map_lidar;
-  PosePrior prior = pose_prior(pose, guess, settings_);
+MapMatch Mapper::refine(const Features& features, const ScanGuess& guess) {
+  return align(points_to_match(features), guess);
+}
+
+MapMatch Mapper::search(const Features& features, const ScanGuess& guess,
+                        const Pose& T_map_previous) {
+  const Features points = points_to_match(features);
+  MapMatch best = align(points, guess);
+  const auto score = [&](const MapMatch& match) {
+    return agreement(map_, deskew(points, match.twist), match.T_map_lidar, settings_.voxel_size);
+  };
+  double best_score = best.matched ? score(best) : 0.0;
+  const PoseSearchRange range{kMaxSpeed * guess.seconds, radians(kMaxTurnDeg)};
+  for (const ScoredPose& start : search_poses(map_, points, T_map_previous, guess.seconds, range,
+                                              settings_.voxel_size, kSearchStarts)) {
+    const Pose T_previous_current = T_map_previous.inverse() * start.T_map_lidar;
+    const MapMatch match = align(
+        points, {start.T_map_lidar, start.T_map_lidar, T_previous_current, guess.seconds, true});
+    const double match_score = match.matched ? score(match) : 0.0;
+    if (match_score <= best_score) continue;
+    best = match;
+    best_score = match_score;
+  }
+  return best;
+}
+
+// Associates and solves until the pose converges. False when too few points have a surface.
+bool Mapper::converge(const Features& points, const PosePrior& prior,
+                      const VelocityPrior& velocity_prior, Registration& r) {
+  MatchedSurfaces surfaces;
+  for (int k = 0; k < settings_.associations; ++k) {
+    r.correspondences = map_.match(deskew(points, r.twist), r.pose, settings_.max_distance,
+                                   range_noise_, 0, surfaces);
+    if (!has_enough_matches(r.correspondences.all, points, settings_)) return false;
+    r.scales = robust_scales(r.correspondences, r.pose);
+    Sweep sweep{r.pose};
+    const LevenbergMarquardtResult result = solve(r.correspondences, r.scales, prior,
+                                                  velocity_prior, r.twist, settings_.iterations,
+                                                  sweep);
+    r.pose = sweep.T_map_lidar;
+    const Vector6 change = velocity_change_in_lidar_axes(sweep);
+    r.twist += change;
+    apply_velocity_change(r.correspondences.all, change);
+    r.iterations += result.iterations;
+    if (result.step < kPoseConvergence) break;
+  }
+  return true;
+}
+
+// Tests the directions that hold few of the constraints; the others hold too many to be noise.
+Localizability Mapper::analyse(const Features& points, const Registration& r) {
+  const double scale = *std::max_element(r.scales.begin(), r.scales.end());
+  Localizability l = localizability(r.correspondences.all, r.pose, scale, 0.0);
+  const double weak = kWeakShare * static_cast<double>(r.correspondences.all.size());
+  const Features deskewed = deskew(points, r.twist);
+  // The share of a direction's information that is not noise: 0 below the least significance.
+  const auto certainty = [&](double strength, const Vector6& step) {
+    if (strength >= weak) return 1.0;
+    const double t = significance(map_, deskewed, r.pose, step, range_noise_);
+    const double least = settings_.min_significance;
+    return t > least ? 1.0 - least * least / (t * t) : 0.0;
+  };
+  const double angle = settings_.voxel_size / mean_range(r.correspondences.all);
+  for (int i = 0; i < 3; ++i) {
+    Vector6 step = Vector6::Zero();
+    step.head<3>() = settings_.voxel_size * l.translation_axes.col(i);
+    l.translation_certainty[i] = certainty(l.translation[i], step);
+    l.degenerate_translations += l.translation_certainty[i] == 0.0;
+    step.setZero();
+    step.tail<3>() = angle * l.rotation_axes.col(i);
+    l.rotation_certainty[i] = certainty(l.rotation[i], step);
+    l.degenerate_rotations += l.rotation_certainty[i] == 0.0;
+  }
+  return l;
+}
+
+MapMatch Mapper::align(const Features& points, const ScanGuess& guess) {
+  MapMatch match = unmatched(points, guess, settings_);
+  PosePrior prior = pose_prior(guess.T_map_lidar, guess, settings_);
   const VelocityPrior velocity_prior(guess.T_previous_current * guess.T_map_lidar.inverse(),
                                      guess.seconds, settings_.acceleration,
                                      radians(settings_.angular_acceleration_deg));
-  Vector6 twist = velocity_prior.mean(pose);
-  std::vector<Correspondence> correspondences;
-  MatchedSurfaces surfaces;
-  double scale = kKernel.max_scale;
-  for (int k = 0; k < settings_.associations; ++k) {
-    correspondences =
-        map_.match(deskew(points, twist), pose, settings_.max_distance, range_noise_, 0, surfaces);
-    match.matches = static_cast<int>(correspondences.size());
-    if (!has_enough_matches(correspondences, points, settings_)) return match;
+  Registration r{guess.T_map_lidar, velocity_prior.mean(guess.T_map_lidar)};
+  const bool converged = converge(points, prior, velocity_prior, r);
+  match.matches = static_cast<int>(r.correspondences.all.size());
+  match.iterations = r.iterations;
+  if (!converged) return match;
 
-    scale = robust_scale(correspondences, pose, kKernel);
-    if (k == 0) {
-      match.localizability = localizability(correspondences, pose, scale, settings_.min_strength);
-      pose = predict_where_degenerate(guess, match.localizability);
-      prior = pose_prior(pose, guess, settings_);
-      prior.fix_degenerate(match.localizability);
-    }
-    Sweep sweep{pose};
-    const LevenbergMarquardtResult result =
-        solve(correspondences, prior, velocity_prior, twist, scale, settings_.iterations, sweep);
-    pose = sweep.T_map_lidar;
-    const Vector6 change = velocity_change_in_lidar_axes(sweep);
-    twist += change;
-    apply_velocity_change(correspondences, change);
-    match.iterations += result.iterations;
-    if (result.step < kPoseConvergence) break;
+  match.localizability = analyse(points, r);
+  if (match.localizability.uncertain()) {
+    r.pose = predict_where_degenerate(r.pose, guess.T_map_predicted, match.localizability);
+    prior = pose_prior(r.pose, guess, settings_);
+    prior.fix_degenerate(match.localizability);
+    if (!converge(points, prior, velocity_prior, r)) return match;
   }
-  NormalEquations<12> solution =
-      sweep_normal_equations(correspondences, pose, Vector6::Zero(), scale);
-  prior.add_to(solution, pose);
-  velocity_prior.add_to(solution, Sweep{pose}, twist);
+  NormalEquations<12> solution = sweep_equations(r.correspondences, Sweep{r.pose}, r.scales);
+  prior.add_to(solution, r.pose);
+  velocity_prior.add_to(solution, Sweep{r.pose}, r.twist);
   // With a guessed pose the residuals say nothing about the sensor.
   if (settings_.elevation_bias && !match.localizability.degenerate()) {
-    elevation_bias_.add(correspondences, pose, scale, solution);
-    row_bias_.add(correspondences, pose, scale);
+    elevation_bias_.add(r.correspondences.set(0), r.pose, r.scales[0], solution);
+    row_bias_.add(r.correspondences.set(0), r.pose, r.scales[0]);
   }
   match.matched = true;
-  match.T_map_lidar = normalized(pose);
-  match.twist = twist;
-  match.inliers = count_inliers(correspondences, pose);
-  match.rmse = weighted_rmse(correspondences, pose, scale);
+  match.matches = static_cast<int>(r.correspondences.all.size());
+  match.iterations = r.iterations;
+  match.T_map_lidar = normalized(r.pose);
+  match.twist = r.twist;
+  match.inliers = count_inliers(r.correspondences, r.pose);
+  match.rmse = weighted_rmse(r.correspondences, r.pose, r.scales);
   match.covariance = solution.H.inverse().topLeftCorner<6, 6>();
   return match;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "core/pose.hpp"
@@ -9,6 +10,7 @@
 #include "mapping/elevation_bias.hpp"
 #include "mapping/row_bias.hpp"
 #include "mapping/settings.hpp"
+#include "mapping/sweep_priors.hpp"
 #include "registration/localizability.hpp"
 
 namespace lego_loam_sc {
@@ -47,6 +49,11 @@ class Mapper {
   /// the pose; its prior is the motion since the previous scan.
   MapMatch refine(const Features& features, const ScanGuess& guess);
 
+  /// The same when the motion since the previous scan at `T_map_previous` is unknown, as at the
+  /// start of a drive: refines several poses within reach of it besides the guess, and returns the
+  /// match in which most of the scan agrees with the map.
+  MapMatch search(const Features& features, const ScanGuess& guess, const Pose& T_map_previous);
+
   /// rad; common error of all elevation angles, see ElevationBias. 0 when its estimation is off.
   double elevation_bias() const { return elevation_bias_.value(); }
 
@@ -70,6 +77,20 @@ class Mapper {
   }
 
  private:
+  // A scan while it is being registered.
+  struct Registration {
+    Pose pose;      // T_map_lidar
+    Vector6 twist;  // that the points are de-skewed with
+    MapCorrespondences correspondences;
+    std::array<double, 3> scales{};  // of the kernel of each set
+    int iterations = 0;
+  };
+
+  Features points_to_match(const Features& features);
+  bool converge(const Features& points, const PosePrior& prior, const VelocityPrior& velocity_prior,
+                Registration& registration);
+  Localizability analyse(const Features& points, const Registration& registration);
+  MapMatch align(const Features& points, const ScanGuess& guess);
   void adapt_spacing(int points);
 
   MappingSettings settings_;

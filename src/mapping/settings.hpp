@@ -12,7 +12,8 @@ struct MappingSettings {
   double insert_distance = 0.05;
   double match_spacing = 1.0;
   int match_points = 1000;
-  int associations = 5;
+  int scattered_points = 600;
+  int associations = 20;
   int iterations = 2;
   double max_distance = 1.5;
   double planarity = 0.1;
@@ -22,7 +23,7 @@ struct MappingSettings {
   double angular_acceleration_deg = 100.0;
   int min_matches = 50;
   double min_matched_share = 0.3;
-  double min_strength = 3.0;
+  double min_significance = 3.0;
   bool elevation_bias = true;
 
   template <class Self, class Visit>
@@ -39,6 +40,8 @@ struct MappingSettings {
           "m; voxel of the filter over the points that are matched");
     visit("match_points", s.match_points, 0, 100000,
           "in small spaces that voxel shrinks until about this many points are left; 0 = never");
+    visit("scattered_points", s.scattered_points, 0, 100000,
+          "scattered points that are matched; of more, evenly spread ones are taken");
     visit("associations", s.associations, 1, 100, "times that correspondences are searched anew");
     visit("iterations", s.iterations, 1, 100, "Levenberg-Marquardt steps for one association");
     visit("max_distance", s.max_distance, 0.05, 100.0,
@@ -56,8 +59,9 @@ struct MappingSettings {
     visit("min_matches", s.min_matches, 6, 100000, "fewest matched points of a good match");
     visit("min_matched_share", s.min_matched_share, 0.0, 1.0,
           "smallest share of the points that must find a surface");
-    visit("min_strength", s.min_strength, 0.0, 1000.0,
-          "constraints that must hold each direction, else it is degenerate and keeps the guess");
+    visit("min_significance", s.min_significance, 0.0, 1000.0,
+          "sigmas; a direction in which the scan fits the map less clearly is degenerate and keeps the "
+          "prediction");
     visit(
         "elevation_bias", s.elevation_bias,
         "find and correct errors of the elevation angles on the way: of all beams and of each row");

@@ -63,15 +63,6 @@ Pose keep_guess_where_degenerate(const Pose& solved, const Pose& guess, const Lo
   return perturb(guess, delta - degenerate_component(l, delta));
 }
 
-// At most `count` of the points, evenly spaced in their order.
-std::vector<FeaturePoint> subsample(const std::vector<FeaturePoint>& points, int count) {
-  const auto wanted = static_cast<std::size_t>(count);
-  if (points.size() <= wanted) return points;
-  std::vector<FeaturePoint> taken(wanted);
-  for (std::size_t i = 0; i < wanted; ++i) taken[i] = points[i * points.size() / wanted];
-  return taken;
-}
-
 bool is_ground(const FeaturePoint& point) {
   return point.label == Label::ground;
 }

@@ -65,32 +65,32 @@ Localizability localizability(std::span<const Correspondence> correspondences,
   }
   sort_axes(result.translation, result.translation_axes);
   sort_axes(result.rotation, result.rotation_axes);
-  result.degenerate_translations =
-      static_cast<int>((result.translation.array() < min_strength).count());
-  result.degenerate_rotations = static_cast<int>((result.rotation.array() < min_strength).count());
+  const auto degenerate = [&](double strength) { return strength < min_strength; };
+  for (int i = 0; i < 3; ++i) {
+    result.translation_certainty[i] = degenerate(result.translation[i]) ? 0.0 : 1.0;
+    result.rotation_certainty[i] = degenerate(result.rotation[i]) ? 0.0 : 1.0;
+    result.degenerate_translations += degenerate(result.translation[i]);
+    result.degenerate_rotations += degenerate(result.rotation[i]);
+  }
   return result;
 }
 
 Vector6 degenerate_component(const Localizability& l, const Vector6& delta) {
-  Vector6 component = Vector6::Zero();
-  for (int i = 0; i < l.degenerate_translations; ++i)
-    component.head<3>() +=
-        l.translation_axes.col(i) * l.translation_axes.col(i).dot(delta.head<3>());
-  for (int i = 0; i < l.degenerate_rotations; ++i)
-    component.tail<3>() += l.rotation_axes.col(i) * l.rotation_axes.col(i).dot(delta.tail<3>());
-  return component;
+  return degenerate_projection(l, 1.0, 1.0) * delta;
 }
 
 Matrix6 degenerate_projection(const Localizability& l, double translation_weight,
                               double rotation_weight) {
-  Matrix6 projection = Matrix6::Zero();
-  for (int i = 0; i < l.degenerate_translations; ++i)
-    projection.topLeftCorner<3, 3>() +=
-        translation_weight * l.translation_axes.col(i) * l.translation_axes.col(i).transpose();
-  for (int i = 0; i < l.degenerate_rotations; ++i)
-    projection.bottomRightCorner<3, 3>() +=
-        rotation_weight * l.rotation_axes.col(i) * l.rotation_axes.col(i).transpose();
-  return projection;
+  const auto projection = [](const Eigen::Matrix3d& axes, const Eigen::Vector3d& certainty) {
+    return Eigen::Matrix3d(axes * (1.0 - certainty.array()).matrix().asDiagonal() *
+                           axes.transpose());
+  };
+  Matrix6 result = Matrix6::Zero();
+  result.topLeftCorner<3, 3>() =
+      translation_weight * projection(l.translation_axes, l.translation_certainty);
+  result.bottomRightCorner<3, 3>() =
+      rotation_weight * projection(l.rotation_axes, l.rotation_certainty);
+  return result;
 }
 
 }  // namespace lego_loam_sc

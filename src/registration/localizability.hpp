@@ -19,9 +19,18 @@ struct Localizability {
   Eigen::Vector3d rotation = Eigen::Vector3d::Zero();
   Eigen::Matrix3d translation_axes = Eigen::Matrix3d::Identity();  ///< columns, target frame,
   Eigen::Matrix3d rotation_axes = Eigen::Matrix3d::Identity();     ///< weakest first
-  int degenerate_translations = 0;  ///< number of degenerate axes, which are the first ones
+  /// Of each axis, the share of what the correspondences say along it that is to be believed: 0 of a
+  /// degenerate one, 1 where there is no doubt.
+  /// @{
+  Eigen::Vector3d translation_certainty = Eigen::Vector3d::Ones();
+  Eigen::Vector3d rotation_certainty = Eigen::Vector3d::Ones();
+  /// @}
+  int degenerate_translations = 0;  ///< number of axes with a certainty of 0
   int degenerate_rotations = 0;
 
+  bool uncertain() const {
+    return translation_certainty.minCoeff() < 1.0 || rotation_certainty.minCoeff() < 1.0;
+  }
   bool degenerate() const { return degenerate_translations + degenerate_rotations > 0; }
 };
 
@@ -30,10 +39,11 @@ struct Localizability {
 Localizability localizability(std::span<const Correspondence> correspondences,
                               const Pose& T_target_source, double scale, double min_strength);
 
-/// The component of a perturbation (translation first) along the degenerate directions.
+/// The component of a perturbation (translation first) along the degenerate directions, and that
+/// along uncertain ones by the uncertain share.
 Vector6 degenerate_component(const Localizability& localizability, const Vector6& delta);
 
-/// The projection matrix onto the degenerate directions, with its translation and rotation blocks
+/// The same as a matrix, with its translation and rotation blocks
 /// multiplied by these weights.
 Matrix6 degenerate_projection(const Localizability& localizability, double translation_weight,
                               double rotation_weight);

@@ -25,7 +25,10 @@ Pose MotionState::T_map_predicted(double seconds) const {
 
 void MotionState::add_displacement(double metres, double seconds, bool constrained) {
   travelled += metres;
-  if (constrained) speed += (1.0 - std::exp(-seconds / kSpeedMemory)) * (metres / seconds - speed);
+  if (!known)
+    speed = metres / seconds;
+  else if (constrained)
+    speed += (1.0 - std::exp(-seconds / kSpeedMemory)) * (metres / seconds - speed);
 }
 
 }  // namespace lego_loam_sc

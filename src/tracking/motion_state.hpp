@@ -25,6 +25,7 @@ struct ScanState {
 struct MotionState {
   ScanState previous;               ///< the last scan whose place was found
   Vector6 twist = Vector6::Zero();  ///< between it and the one before, in its axes
+  bool known = false;               ///< false: at rest is all that can be assumed
   double speed = 0.0;               ///< m/s, exponential mean over well-constrained scans
   double travelled = 0.0;           ///< m
 
@@ -42,7 +43,7 @@ struct MotionState {
   /// See core/state_archive.hpp.
   template <class Archive>
   void state(Archive& archive) {
-    archive(previous, twist, speed, travelled);
+    archive(previous, twist, known, speed, travelled);
   }
 };
 

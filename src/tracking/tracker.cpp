@@ -63,6 +63,7 @@ TrackedScan Tracker::reprocess_first_scans(const FirstScan& first, const Scan& s
     *this = Tracker(calibration_.nominal, settings_, key_frames_);
     motion_.twist = twist;
     motion_.speed = twist.head<3>().norm();
+    motion_.known = true;
     auto first_again = std::make_shared<TrackedScan>(track_once(first.scan, first.index));
     tracked = track_once(second, index);
     tracked.first_again = std::move(first_again);
@@ -195,6 +196,11 @@ MapMatch Tracker::match_with_map(const Features& features, const Motion& motion,
     return mapper_.refine(features, {motion_.previous.T_map_lidar * T_previous_current,
                                      T_map_predicted, T_previous_current, seconds, measured});
   };
+  if (!motion_.known)
+    return mapper_.search(features,
+                          {motion_.previous.T_map_lidar * motion.T_previous_current,
+                           T_map_predicted, motion.T_previous_current, seconds, motion.solved},
+                          motion_.previous.T_map_lidar);
   MapMatch match = refine_from(motion.T_previous_current, motion.solved);
   if (match.matched || !motion.solved) return match;
   MapMatch again = refine_from(motion_.predicted_motion(seconds), false);
@@ -245,6 +251,7 @@ Tracker::Advance Tracker::advance(const FrontEnd& front_end, const Motion& motio
                     step.seconds;
   motion_.add_displacement(T_previous_current.translation().norm(), step.seconds,
                            match.localizability.degenerate_translations == 0);
+  if (!step.first) motion_.known = !placement.new_fragment;
   const Vector6& twist = result.current.twist = match.matched ? match.twist : motion_.twist;
   result.T_reference_stamp =
       step.first || placement.new_fragment
