@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include "map/voxel_filter.hpp"
 #include "mapping/observability.hpp"
@@ -64,6 +65,13 @@ void apply_velocity_change(std::vector<Correspondence>& correspondences, const V
 // constant-velocity prediction replaces it there.
 Pose predict_where_degenerate(const Pose& pose, const Pose& predicted, const Localizability& l) {
   return perturb(pose, degenerate_component(l, perturbation_between(pose, predicted)));
+}
+
+std::vector<Correspondence> without_points(const std::vector<Correspondence>& correspondences) {
+  std::vector<Correspondence> result;
+  std::copy_if(correspondences.begin(), correspondences.end(), std::back_inserter(result),
+               [](const Correspondence& c) { return c.kind != Correspondence::Kind::point; });
+  return result;
 }
 
 // m, of the matched points from the sensor.
@@ -245,28 +253,33 @@ bool Mapper::converge(const Features& points, const PosePrior& prior,
   return true;
 }
 
-// Tests the directions that hold few of the constraints; the others hold too many to be noise.
-Localizability Mapper::analyse(const Features& points, const Registration& r) {
+// A direction that many planes and lines constrain needs no test. In the others the registration is
+// believed as far as its standard error lets it, beside what the sensor may have accelerated in
+// `seconds`.
+Localizability Mapper::analyse(const Features& points, const Registration& r, double seconds) {
+  const std::vector<Correspondence> shaped = without_points(r.correspondences.all);
   const double scale = *std::max_element(r.scales.begin(), r.scales.end());
-  Localizability l = localizability(r.correspondences.all, r.pose, scale, 0.0);
+  Localizability l = localizability(shaped, r.pose, scale, 0.0);
   const double weak = kWeakShare * static_cast<double>(r.correspondences.all.size());
   const Features deskewed = deskew(points, r.twist);
-  // The share of a direction's information that is not noise: 0 below the least significance.
-  const auto certainty = [&](double strength, const Vector6& step) {
+  const auto certainty = [&](double strength, const Vector6& step, double acceleration) {
     if (strength >= weak) return 1.0;
-    const double t = significance(map_, deskewed, r.pose, step, range_noise_);
-    const double least = settings_.min_significance;
-    return t > least ? 1.0 - least * least / (t * t) : 0.0;
+    const Observability o = observability(map_, deskewed, r.pose, step, range_noise_);
+    if (o.significance < settings_.min_significance) return 0.0;
+    const double predicted = std::pow(acceleration * seconds * seconds, 2);
+    const double registered = std::pow(o.standard_error * step.norm(), 2);
+    return predicted > 0.0 ? predicted / (predicted + registered) : 1.0;
   };
   const double angle = settings_.voxel_size / mean_range(r.correspondences.all);
   for (int i = 0; i < 3; ++i) {
     Vector6 step = Vector6::Zero();
     step.head<3>() = settings_.voxel_size * l.translation_axes.col(i);
-    l.translation_certainty[i] = certainty(l.translation[i], step);
+    l.translation_certainty[i] = certainty(l.translation[i], step, settings_.acceleration);
     l.degenerate_translations += l.translation_certainty[i] == 0.0;
     step.setZero();
     step.tail<3>() = angle * l.rotation_axes.col(i);
-    l.rotation_certainty[i] = certainty(l.rotation[i], step);
+    l.rotation_certainty[i] =
+        certainty(l.rotation[i], step, radians(settings_.angular_acceleration_deg));
     l.degenerate_rotations += l.rotation_certainty[i] == 0.0;
   }
   return l;
@@ -284,7 +297,7 @@ MapMatch Mapper::align(const Features& points, const ScanGuess& guess) {
   match.iterations = r.iterations;
   if (!converged) return match;
 
-  match.localizability = analyse(points, r);
+  match.localizability = analyse(points, r, guess.seconds);
   if (match.localizability.uncertain()) {
     r.pose = predict_where_degenerate(r.pose, guess.T_map_predicted, match.localizability);
     prior = pose_prior(r.pose, guess, settings_);

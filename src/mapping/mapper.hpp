@@ -89,7 +89,8 @@ class Mapper {
   Features points_to_match(const Features& features);
   bool converge(const Features& points, const PosePrior& prior, const VelocityPrior& velocity_prior,
                 Registration& registration);
-  Localizability analyse(const Features& points, const Registration& registration);
+  Localizability analyse(const Features& points, const Registration& registration,
+                         double seconds);
   MapMatch align(const Features& points, const ScanGuess& guess);
   void adapt_spacing(int points);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mapping/observability.hpp"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -39,27 +39,44 @@ std::vector<double> point_costs(LocalMap& map, const Features& points, const Pos
   return costs;
 }
 
+// The mean of some numbers and its standard error.
+class Mean {
+ public:
+  void add(double x) {
+    ++count_;
+    sum_ += x;
+    squares_ += x * x;
+  }
+  double value() const { return count_ > 0.0 ? sum_ / count_ : 0.0; }
+  double standard_error() const {
+    if (count_ < 2.0) return std::numeric_limits<double>::infinity();
+    return std::sqrt(std::max(squares_ / count_ - value() * value(), 0.0) / count_);
+  }
+
+ private:
+  double count_ = 0.0, sum_ = 0.0, squares_ = 0.0;
+};
+
 }  // namespace
 
-double significance(LocalMap& map, const Features& points, const Pose& T_map_lidar,
-                    const Vector6& step, double range_noise) {
+Observability observability(LocalMap& map, const Features& points, const Pose& T_map_lidar,
+                            const Vector6& step, double range_noise) {
   const std::vector<double> here = point_costs(map, points, T_map_lidar, range_noise);
   const std::vector<double> ahead =
       point_costs(map, points, perturb(T_map_lidar, step), range_noise);
   const std::vector<double> behind =
       point_costs(map, points, perturb(T_map_lidar, -step), range_noise);
-  double count = 0.0, sum = 0.0, squares = 0.0;
+  Mean rise, slope;
   for (std::size_t i = 0; i < here.size(); ++i) {
-    const double rise = ahead[i] + behind[i] - 2.0 * here[i];
-    if (std::isnan(rise)) continue;
-    ++count;
-    sum += rise;
-    squares += rise * rise;
+    const double curvature = ahead[i] + behind[i] - 2.0 * here[i];
+    if (std::isnan(curvature)) continue;
+    rise.add(curvature);
+    slope.add(0.5 * (ahead[i] - behind[i]));
   }
-  if (count < 2.0) return 0.0;
-  const double mean = sum / count;
-  const double variance = squares / count - mean * mean;
-  return variance > 0.0 ? mean / std::sqrt(variance / count) : 0.0;
+  Observability result;
+  if (rise.standard_error() > 0.0) result.significance = rise.value() / rise.standard_error();
+  if (rise.value() > 0.0) result.standard_error = slope.standard_error() / rise.value();
+  return result;
 }
 
 }  // namespace lego_loam_sc

@@ -23,7 +23,7 @@ struct MappingSettings {
   double angular_acceleration_deg = 100.0;
   int min_matches = 50;
   double min_matched_share = 0.3;
-  double min_significance = 3.0;
+  double min_significance = 4.0;
   bool elevation_bias = true;
 
   template <class Self, class Visit>
