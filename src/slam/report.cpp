@@ -39,6 +39,8 @@ ScanReport report_of(const TrackedScan& tracked, std::vector<LoopReport> loops) 
   report.least_translation_strength = match.localizability.translation[0];
   report.least_rotation_strength = match.localizability.rotation[0];
   report.elevation_bias_deg = tracked.elevation_bias_deg;
+  report.agreeing = tracked.testimony.agreeing;
+  report.contradicting = tracked.testimony.contradicting;
   report.prediction_m = tracked.prediction_m;
 
   report.piece = tracked.fragment;

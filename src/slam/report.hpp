@@ -36,6 +36,7 @@ struct ScanReport {
   double least_translation_strength = 0.0, least_rotation_strength = 0.0;
   double elevation_bias_deg = 0.0;  ///< found so far, corrected from the next scan on
 
+  int agreeing = 0, contradicting = 0;  ///< points, see Testimony
   double prediction_m = 0.0;  ///< from the predicted to the found position
 
   int piece = 0;       ///< of the drive, from 0; see MapFragments

@@ -14,6 +14,7 @@
 #include "odometry/odometry.hpp"
 #include "tracking/front_end.hpp"
 #include "tracking/stage_timer.hpp"
+#include "tracking/witness.hpp"
 
 namespace lego_loam_sc {
 
@@ -39,6 +40,7 @@ struct TrackedScan {
   MapMatch match;              // (4), as found; nothing when not mapped or while the map is empty
   double elevation_bias_deg = 0.0;  ///< found so far, corrected from the next scan on
   double prediction_m = 0.0;        ///< from the predicted to the found position
+  Testimony testimony;              ///< of points that did not serve to find the pose
 
   /// Poses at the stamp: live, before any loop, and in the frame of the last key frame, which may be
   /// this scan. That frame has the LiDAR's axes turned level.

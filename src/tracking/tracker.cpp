@@ -30,7 +30,8 @@ Tracker::Tracker(const SensorModel& sensor, const TrackerSettings& settings,
       clock_(sensor.period),
       odometry_(settings.odometry, sensor.range_noise),
       mapper_(settings.mapping, sensor.range_noise, row_spacing(sensor)),
-      map_updater_(settings.mapping.radius) {}
+      map_updater_(settings.mapping.radius),
+      witness_(row_spacing(sensor)) {}
 
 TrackedScan Tracker::track(const Scan& scan) {
   const bool first = last_key_frame_.number < 0;
@@ -111,6 +112,7 @@ TrackedScan Tracker::track_once(const Scan& scan, int index) {
   tracked.match = placement.found;
   tracked.elevation_bias_deg = placement.elevation_bias_deg;
   tracked.prediction_m = moved.prediction_m;
+  tracked.testimony = moved.testimony;
   tracked.T_odom_lidar = to_lidar_frame(moved.current.T_odom_lidar * moved.T_reference_stamp);
   tracked.last_key_frame = last_key_frame_.number;
   tracked.T_key_lidar = to_lidar_frame(last_key_frame_.T_map_key.inverse() * T_map_lidar *
@@ -225,6 +227,7 @@ void Tracker::begin_fragment() {
   mapper_.clear();
   map_updater_.clear();
   monitor_.clear();
+  witness_.clear();
   ++progress_.fragment;
 }
 
@@ -259,11 +262,24 @@ Tracker::Advance Tracker::advance(const FrontEnd& front_end, const Motion& motio
           : interpolate(T_previous_current, previous.twist, twist, step.seconds, step.stamp_age);
   motion_.previous = result.current;
 
+  result.testimony = hear_witnesses(front_end.image, result.current);
   result.features = deskew(front_end.features, twist);
   odometry_.set_previous(result.features);
   if (placement.mapped) mapper_.add_scan(result.features, result.current.T_map_lidar);
   map_updater_.insert_pending(*key_frames_, mapper_);
   return result;
+}
+
+Testimony Tracker::hear_witnesses(const RangeImage& image, const ScanState& state) const {
+  std::vector<FeaturePoint> chosen;
+  for (const std::size_t i : witnesses(image.size())) {
+    FeaturePoint& point = chosen.emplace_back();
+    point.position = image.points[i];
+    point.time = image.time[i];
+  }
+  std::vector<Eigen::Vector3f> points;
+  for (const FeaturePoint& point : deskew(chosen, state.twist)) points.push_back(point.position);
+  return witness_.hear(points, state.T_map_lidar);
 }
 
 bool Tracker::is_far_from_last_key_frame(const Pose& T_map_lidar) const {
@@ -289,12 +305,14 @@ TrackedKeyFrame Tracker::begin_key_frame(const FrontEnd& front_end, const Advanc
   result.starts_fragment = placement.new_fragment;
   last_key_frame_ = {result.number, result.T_map_key};
   map_updater_.add(result.number, result.T_map_key);
+  witness_.add(result.number, result.points, result.T_map_key);
   return result;
 }
 
 void Tracker::correct(const Correction& correction) {
-  if (map_updater_.on_graph_update(correction, *key_frames_, mapper_))
-    motion_.previous.T_map_lidar = last_key_frame_.T_map_key = correction.T_map_key.back();
+  if (!map_updater_.on_graph_update(correction, *key_frames_, mapper_)) return;
+  motion_.previous.T_map_lidar = last_key_frame_.T_map_key = correction.T_map_key.back();
+  witness_.correct(correction.T_map_key);
 }
 
 // All of the above has the LiDAR's axes turned level; poses of the LiDAR leave.

@@ -17,6 +17,7 @@
 #include "tracking/settings.hpp"
 #include "tracking/tracked_scan.hpp"
 #include "tracking/tracking_monitor.hpp"
+#include "tracking/witness.hpp"
 
 namespace lego_loam_sc {
 
@@ -60,7 +61,7 @@ class Tracker {
   /// See core/state_archive.hpp.
   template <class Archive>
   void state(Archive& archive) {
-    archive(calibration_, clock_, odometry_, mapper_, map_updater_, monitor_, motion_,
+    archive(calibration_, clock_, odometry_, mapper_, map_updater_, monitor_, witness_, motion_,
             last_key_frame_, progress_);
   }
 
@@ -90,6 +91,7 @@ class Tracker {
     Features features;                           // de-skewed; none unless it is placed
     Pose T_reference_stamp = Pose::Identity();
     double prediction_m = 0.0;                   // see TrackedScan
+    Testimony testimony;
   };
   struct LastKeyFrame {
     int number = -1;
@@ -126,6 +128,7 @@ class Tracker {
   void begin_fragment();
   Advance advance(const FrontEnd& front_end, const Motion& motion, const Step& step,
                   const Placement& placement);
+  Testimony hear_witnesses(const RangeImage& image, const ScanState& state) const;
   bool is_far_from_last_key_frame(const Pose& T_map_lidar) const;
   TrackedKeyFrame begin_key_frame(const FrontEnd& front_end, const Advance& advance,
                                   const Placement& placement, int index);
@@ -139,6 +142,7 @@ class Tracker {
   Mapper mapper_;
   LocalMapUpdater map_updater_;
   TrackingMonitor monitor_;
+  Witness witness_;
   MotionState motion_;
   LastKeyFrame last_key_frame_;
   Progress progress_;
