@@ -87,8 +87,8 @@ void ResultWriter::add(const ScanReport& report) {
   }
 }
 
-std::string ResultWriter::finish(const Slam& slam, const DatasetFacts& dataset,
-                                 const RunFacts& facts) {
+RunSummary ResultWriter::finish(const Slam& slam, const DatasetFacts& dataset,
+                                const RunFacts& facts) {
   const Trajectory trajectory = slam.trajectory();
   write_tum(folder_ / "trajectory.tum", trajectory);
   write_kitti(folder_ / "trajectory_kitti.txt", trajectory, dataset.T_camera_lidar);
@@ -113,7 +113,7 @@ std::string ResultWriter::finish(const Slam& slam, const DatasetFacts& dataset,
   write_file(folder_ / "summary.json",
              summary.json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
   if (fault) throw InputError(*fault);
-  return summary.text;
+  return summary;
 }
 
 }  // namespace lego_loam_sc

@@ -7,6 +7,7 @@
 
 #include "app/health_log.hpp"
 #include "app/run_facts.hpp"
+#include "app/run_summary.hpp"
 #include "core/sensor_model.hpp"
 #include "io/append_file.hpp"
 #include "io/dataset_facts.hpp"
@@ -29,10 +30,10 @@ class ResultWriter {
   /// Writes the lines of the next scan.
   void add(const ScanReport& report);
 
-  /// Writes the files that need the whole run. Returns the summary as text for the terminal. Throws
+  /// Writes the files that need the whole run. Returns the summary. Throws
   /// InputError when a file cannot be written and, after all are, when the truth is of another
   /// recording.
-  std::string finish(const Slam& slam, const DatasetFacts& dataset, const RunFacts& facts);
+  RunSummary finish(const Slam& slam, const DatasetFacts& dataset, const RunFacts& facts);
 
   /// See core/state_archive.hpp.
   template <class Archive>

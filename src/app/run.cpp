@@ -161,9 +161,11 @@ void run(const Options& options, int& exit_code) {
   facts.faults = input.faults();
   facts.interrupted = interrupted();
   facts.wall_seconds = wall_seconds_before + seconds_since(begin);
-  const std::string summary = writer.finish(slam, dataset, facts);
+  const RunSummary summary = writer.finish(slam, dataset, facts);
   checkpoint.remove();
-  if (!options.quiet) std::printf("%sresults in %s\n", summary.c_str(), folder.c_str());
+  if (!options.quiet)
+    std::printf("%sresults in %s\n%s\n", summary.text.c_str(), folder.c_str(),
+                summary.verdict.c_str());
   if (!facts.faults.empty()) exit_code = 1;
   if (options.report && !make_report(folder, options.quiet)) exit_code = 1;
 }

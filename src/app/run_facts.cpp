@@ -4,6 +4,7 @@
 namespace lego_loam_sc {
 
 void RunCounts::add(const ScanReport& report) {
+  assessment.add(report);
   ++scans;
   ++statuses[std::string(to_string(report.status))];
   for (const LoopReport& loop : report.loops)

@@ -9,6 +9,7 @@
 
 #include "io/trajectory.hpp"
 #include "slam/report.hpp"
+#include "slam/run_verdict.hpp"
 
 namespace lego_loam_sc {
 
@@ -39,6 +40,7 @@ struct RunCounts {
   std::size_t stamp_jumps = 0;
   int first_jump_scan = 0;
   double first_jump_s = 0.0;
+  RunAssessment assessment;
 
   /// Counts the next scan.
   void add(const ScanReport& report);
@@ -47,7 +49,7 @@ struct RunCounts {
   template <class Archive>
   void state(Archive& archive) {
     archive(scans, accepted_loops, refused_loops, statuses, stamp_jumps, first_jump_scan,
-            first_jump_s);
+            first_jump_s, assessment);
   }
 };
 

@@ -74,6 +74,16 @@ std::string notes_of(const RunCounts& counts, int maps) {
   return text;
 }
 
+nlohmann::ordered_json to_json(const std::vector<DoubtReason>& reasons) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const DoubtReason& reason : reasons)
+    json.push_back({{"reason", reason.text},
+                    {"scans", reason.scans},
+                    {"first_scan", reason.first},
+                    {"last_scan", reason.last}});
+  return json;
+}
+
 }  // namespace
 
 RunSummary summarise(const Slam& slam, const Trajectory& trajectory, std::size_t map_points,
@@ -83,6 +93,7 @@ RunSummary summarise(const Slam& slam, const Trajectory& trajectory, std::size_t
   const double milliseconds_per_scan =
       counts.scans > 0 ? 1e3 * resources.cpu_seconds / static_cast<double>(counts.scans) : 0.0;
   const Eigen::Vector3d mounting = rpy_from_rotation(slam.R_level_lidar());
+  const RunVerdict verdict = counts.assessment.verdict(slam.maps());
   nlohmann::ordered_json json = {
       {"version", LEGO_LOAM_SC_VERSION},
       {"input", facts.input},
@@ -92,6 +103,8 @@ RunSummary summarise(const Slam& slam, const Trajectory& trajectory, std::size_t
       {"mount_roll_deg", degrees(mounting[0]) + 0.0},  // no minus before a zero
       {"mount_pitch_deg", degrees(mounting[1]) + 0.0},
       {"scans", counts.scans},
+      {"verdict", to_string(verdict.trust)},
+      {"verdict_reasons", to_json(verdict.reasons)},
       {"status", counts.statuses},
       {"stamp_jumps", counts.stamp_jumps},
       {"health", health.to_json()},
@@ -119,7 +132,8 @@ RunSummary summarise(const Slam& slam, const Trajectory& trajectory, std::size_t
                 counts.scans, length, slam.key_frames().size(), counts.accepted_loops, map_points,
                 facts.wall_seconds, resources.cpu_seconds, milliseconds_per_scan,
                 resources.peak_megabytes);
-  return {std::move(json), text + notes_of(counts, slam.maps()) + health.text()};
+  return {std::move(json), text + notes_of(counts, slam.maps()) + health.text(),
+          describe(verdict)};
 }
 
 void add_errors(const NamedTruth& truth, const DatasetFacts& dataset, const Trajectory& odometry,

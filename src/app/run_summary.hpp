@@ -17,6 +17,7 @@ namespace lego_loam_sc {
 struct RunSummary {
   nlohmann::ordered_json json;  ///< content of summary.json
   std::string text;             ///< lines for the terminal
+  std::string verdict;          ///< the last line
 };
 
 /// Says what came of a run: `trajectory` is the corrected one. The processor time and the memory
