@@ -65,7 +65,8 @@ std::vector<MapPoint> make_map(const KeyFrames& key_frames, std::span<const Pose
 
 std::vector<MapPoint> points_of(const KeyFrame& key_frame, int number) {
   std::vector<MapPoint> points;
-  for (const auto* cloud : {&key_frame.planars, &key_frame.edges, &key_frame.others})
+  for (const auto* cloud :
+       {&key_frame.planars, &key_frame.edges, &key_frame.scattered, &key_frame.others})
     for (const PackedPoint& point : *cloud)
       points.push_back({point.position(), static_cast<float>(point.intensity), number});
   return points;

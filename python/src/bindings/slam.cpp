@@ -128,10 +128,8 @@ std::vector<Eigen::Vector4f> key_frame_points(const Slam& slam, std::size_t numb
                               .c_str());
   const KeyFrame key_frame = slam.key_frames()[number];
   std::vector<Eigen::Vector4f> points;
-  for (const auto* part : {&key_frame.planars, &key_frame.edges, &key_frame.others})
-    for (const PackedPoint& point : *part)
-      points.emplace_back(point.position().x(), point.position().y(), point.position().z(),
-                          static_cast<float>(point.intensity));
+  for (const MapPoint& p : points_of(key_frame, static_cast<int>(number)))
+    points.emplace_back(p.position.x(), p.position.y(), p.position.z(), p.intensity);
   return points;
 }
 
