@@ -4,7 +4,7 @@
 cmake_minimum_required(VERSION 3.25)
 set(headers
   slam/slam.hpp slam/match_scans.hpp key_frames/map_cloud.hpp loop/scan_context.hpp
-  io/scan_source.hpp sensor/recognise_sensor.hpp io/sensor_yaml.hpp io/settings_yaml.hpp
+  io/scan_source.hpp io/sensor_presets.hpp io/sensor_yaml.hpp io/settings_yaml.hpp
   io/trajectory.hpp io/cloud_writer.hpp core/error.hpp core/time.hpp)
 set(done)
 while(headers)

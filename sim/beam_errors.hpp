@@ -6,11 +6,11 @@
 
 namespace lego_loam_sc {
 
-/// How the beams of one sensor differ from its model; fixed for a whole drive. One value for each
-/// row, or none at all: a sensor as its model says.
+/// Errors of the beams of one sensor, constant during a drive. One value per row, or empty: the
+/// sensor matches its model.
 struct BeamErrors {
-  std::vector<double> elevation_deg;  ///< the beam points so much higher than the sensor reports
-  std::vector<double> range;          ///< m; the sensor reports so much more than the true range
+  std::vector<double> elevation_deg;  ///< true minus reported elevation
+  std::vector<double> range;          ///< m; reported minus true range
 };
 
 /// The errors of a used sensor: all beams point 0.19 degrees higher than reported, as those of the

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/car_park.hpp"
-
 #include <utility>
 #include <vector>
 
 #include "sim/concrete.hpp"
 #include "sim/drive.hpp"
+#include "sim/places.hpp"
 #include "sim/random.hpp"
 #include "sim/storey.hpp"
 
@@ -111,13 +110,13 @@ Drive parking2_drive(const DriveSettings& settings) {
   const auto way_down = [](double x, double) { return kDown.height(x); };
   const auto way_up = [](double x, double) { return kUp.height(x); };
   const std::vector<Ground> grounds = {floor, way_down, floor_below, way_up, floor};
-  std::vector<GroundStretch> stretches;
+  std::vector<GroundSection> sections;
   double distance = 0.0;
   for (std::size_t i = 0; i < grounds.size(); ++i) {
     if (i > 0) distance = passage(route, passages[i - 1], distance);
-    stretches.push_back({distance, grounds[i]});
+    sections.push_back({distance, grounds[i]});
   }
-  return {route, stretches, settings};
+  return {route, sections, settings};
 }
 
 Mesh one_storey(const StoreyPlan& plan, std::uint64_t seed) {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/city.hpp"
-
 #include <vector>
 
 #include "core/time.hpp"
@@ -9,6 +7,7 @@
 #include "sim/city_route.hpp"
 #include "sim/city_streets.hpp"
 #include "sim/city_traffic.hpp"
+#include "sim/places.hpp"
 #include "sim/random.hpp"
 #include "sim/recorded_track.hpp"
 #include "sim/shaking.hpp"
@@ -49,8 +48,8 @@ World make_city(std::uint64_t seed, const Trajectory& route) {
   low.array() -= kMargin;
   high.array() += kMargin;
   const Terrain terrain = Terrain::along(ground, low, high);
-  const Way way = way_of(track);
-  const std::vector<Street> streets = make_streets(way.path, hash(seed, 1));
+  const TrackPath path = path_of(track);
+  const std::vector<Street> streets = make_streets(path.curve, hash(seed, 1));
   const LaneMap lanes(lanes_of(streets), low, high, kMapCell, kMapReach);
 
   World world{.sensor = "hdl64e", .sensor_height = kSensorHeight, .mesh = {}, .motion = {}};
@@ -64,7 +63,7 @@ World make_city(std::uint64_t seed, const Trajectory& route) {
     return stand_on(terrain, plan.head<2>(), plan.z()) * shake.at(time);
   };
   world.motion.duration_ns = nanoseconds(track.plan.end());
-  world.traffic = make_city_traffic(way, terrain, lanes, hash(seed, 4));
+  world.traffic = make_city_traffic(path, terrain, lanes, hash(seed, 4));
   world.range_noise = 0.025;
   world.worn_sensor = true;
   return world;

@@ -10,7 +10,7 @@
 
 namespace lego_loam_sc {
 
-/// All that stands in a city: parked cars, trees, lamps, signs and bollards along the streets,
+/// The objects in a city: parked cars, trees, lamps, signs and bollards along the streets,
 /// houses with gardens, hedges, walls and gaps on both sides, more houses and trees behind them.
 /// Nothing stands within 1.45 m of the middle of a lane. `lanes` is the map of the streets' lanes.
 void add_city_lots(Mesh& mesh, const std::vector<Street>& streets, const LaneMap& lanes,

@@ -9,11 +9,10 @@
 
 #include "core/time.hpp"
 #include "sim/city_streets.hpp"
-#include "sim/left_of.hpp"
+#include "sim/geometry.hpp"
 #include "sim/materials.hpp"
 #include "sim/props.hpp"
 #include "sim/random.hpp"
-#include "sim/smooth_step.hpp"
 
 namespace lego_loam_sc {
 namespace {
@@ -23,7 +22,7 @@ using Eigen::Vector3d;
 
 constexpr std::size_t kCars = 4;  // models of cars, then those of a cyclist and a walker
 constexpr std::size_t kCyclist = kCars, kWalker = kCars + 1;
-constexpr double kBeyond = 70.0;    // m; the street goes on so far before and after the way
+constexpr double kBeyond = 70.0;    // m; the street goes on so far before and after the path
 constexpr double kPavement = 4.75;  // m from the lane to the walkers
 constexpr double kCloth = 0.3;      // reflectivity
 
@@ -57,21 +56,21 @@ std::vector<Mesh> make_models(Random random) {
   return models;
 }
 
-// The way, the ground and the vehicle, shared by all movers.
+// The path of the vehicle and the ground, shared by all movers.
 struct Stage {
-  Way way;
+  TrackPath path;
   Terrain terrain;
 
-  double end() const { return way.travelled.end(); }
+  double end() const { return path.travelled.end(); }
 
-  // A place `left` (m) of the way at `distance` (m), heading along it or, `back`, against it.
+  // A place `left` (m) of the path at `distance` (m), heading along it or, `back`, against it.
   Pose place(double distance, double left, bool back) const {
-    const Vector2d along = way.path.derivative(distance).normalized();
-    const Vector2d place = way.path.at(distance) + left * left_of(along);
+    const Vector2d along = path.curve.derivative(distance).normalized();
+    const Vector2d place = path.curve.at(distance) + left * left_of(along);
     const Vector2d heading = back ? Vector2d(-along) : along;
     return stand_on(terrain, place, std::atan2(heading.y(), heading.x()));
   }
-  Pose vehicle(double time) const { return place(way.travelled.at(time), 0.0, false); }
+  Pose vehicle(double time) const { return place(path.travelled.at(time), 0.0, false); }
 };
 
 // Three circles cover a car with some room, so two cars are apart when all their circles are.
@@ -89,14 +88,14 @@ class TrafficMaker {
   TrafficMaker(std::shared_ptr<const Stage> stage, const LaneMap& lanes, TrafficPlan& plan)
       : stage_(std::move(stage)), lanes_(lanes), plan_(plan) {}
 
-  // A car that is caught up with at one part of the way, leads at a second's distance and leaves.
+  // A car that is caught up with at one part of the path, leads at a second's distance and leaves.
   void add_leader(std::size_t model, double from_part, double to_part) {
     constexpr double kFar = 90.0, kApproach = 300.0;  // m
-    const double length = stage_->way.path.end();
+    const double length = stage_->path.curve.end();
     const double from = from_part * length, to = to_part * length;
     const auto distance = [stage = stage_, from, to](double time) {
-      const double own = stage->way.travelled.at(time);
-      return stage->way.travelled.at(time + 1.0) + 8.0 +
+      const double own = stage->path.travelled.at(time);
+      return stage->path.travelled.at(time + 1.0) + 8.0 +
              kFar * (1.0 - smooth_step((own - from) / kApproach) +
                      smooth_step((own - to + kApproach) / kApproach));
     };
@@ -108,9 +107,9 @@ class TrafficMaker {
 
   // Comes towards the vehicle and meets it at `time` (s).
   void add_oncoming(std::size_t model, double time, double speed) {
-    const double meeting = stage_->way.travelled.at(time);
+    const double meeting = stage_->path.travelled.at(time);
     const double from =
-        std::max(time - 12.0, time - (stage_->way.path.end() + kBeyond - meeting) / speed);
+        std::max(time - 12.0, time - (stage_->path.curve.end() + kBeyond - meeting) / speed);
     const double to = std::min(time + 12.0, time + (meeting + kBeyond) / speed);
     add_if_apart({model, nanoseconds(from), nanoseconds(to),
                   [stage = stage_, meeting, time, speed](std::int64_t time_ns) {
@@ -119,9 +118,9 @@ class TrafficMaker {
                   }});
   }
 
-  // Walks on the pavement on either side, along or against the way.
+  // Walks on the pavement on either side, along or against the path.
   void add_walker(double time, double speed, bool on_left) {
-    const double meeting = stage_->way.travelled.at(time);
+    const double meeting = stage_->path.travelled.at(time);
     const double left = on_left ? kLaneOffset + kPavement : -kPavement;
     const Mover walker{kWalker, nanoseconds(time - 12.0), nanoseconds(time + 12.0),
                        [stage = stage_, meeting, time, speed, left](std::int64_t time_ns) -> Pose {
@@ -140,7 +139,7 @@ class TrafficMaker {
   // When the vehicle has travelled so far, s.
   double time_at(double distance) const {
     double time = 0.0;
-    while (time < stage_->end() && stage_->way.travelled.at(time) < distance) time += 0.1;
+    while (time < stage_->end() && stage_->path.travelled.at(time) < distance) time += 0.1;
     return time;
   }
 
@@ -161,10 +160,10 @@ class TrafficMaker {
 
 }  // namespace
 
-TrafficPlan make_city_traffic(const Way& way, const Terrain& terrain, const LaneMap& lanes,
+TrafficPlan make_city_traffic(const TrackPath& path, const Terrain& terrain, const LaneMap& lanes,
                               std::uint64_t seed) {
   TrafficPlan plan{.models = make_models(Random(hash(seed, 1))), .movers = {}};
-  const auto stage = std::make_shared<const Stage>(Stage{way, terrain});
+  const auto stage = std::make_shared<const Stage>(Stage{path, terrain});
   TrafficMaker maker(stage, lanes, plan);
   maker.add_leader(0, 0.10, 0.45);
   maker.add_leader(1, 0.60, 0.85);

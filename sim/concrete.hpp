@@ -9,9 +9,9 @@
 
 namespace lego_loam_sc {
 
-// Walls and ways of an underground building. All lengths in m.
+// Walls and passages of an underground building. All lengths in m.
 
-/// The farthest that a part of a wall stands back behind the wall's line.
+/// Maximum distance of a wall panel behind the line of the wall.
 constexpr double kSetback = 0.3;
 
 /// A wall in panels that stand back by different amounts, with doors, pilasters and cabinets. The
@@ -32,7 +32,7 @@ struct Ramp {
   double y;               ///< of its middle
   double z_begin, z_end;  ///< of the landings
 
-  /// Height of the way at x; level beyond the ends. Its slope is continuous.
+  /// Height of the floor at x; level beyond the ends. Its slope is continuous.
   double height(double x) const;
 };
 

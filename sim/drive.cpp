@@ -7,8 +7,7 @@
 #include <utility>
 
 #include "core/time.hpp"
-#include "sim/left_of.hpp"
-#include "sim/smooth_step.hpp"
+#include "sim/geometry.hpp"
 
 namespace lego_loam_sc {
 namespace {
@@ -64,11 +63,11 @@ Pose pose_on_ground(const Ground& ground, const Route::Point& point, double whee
 }  // namespace
 
 Drive::Drive(Route route, Ground ground, const DriveSettings& settings)
-    : Drive(std::move(route), std::vector<GroundStretch>{{0.0, std::move(ground)}}, settings) {}
+    : Drive(std::move(route), std::vector<GroundSection>{{0.0, std::move(ground)}}, settings) {}
 
-Drive::Drive(Route route, std::vector<GroundStretch> stretches, const DriveSettings& settings)
+Drive::Drive(Route route, std::vector<GroundSection> sections, const DriveSettings& settings)
     : route_(std::move(route)),
-      stretches_(std::move(stretches)),
+      sections_(std::move(sections)),
       wheel_base_(settings.wheel_base),
       track_width_(settings.track_width),
       speeds_(speed_profile(route_, settings)),
@@ -91,7 +90,7 @@ Pose Drive::pose(std::int64_t time_ns) const {
 }
 
 const Ground& Drive::ground_at(double distance) const {
-  const auto next = std::ranges::upper_bound(stretches_, distance, {}, &GroundStretch::start);
+  const auto next = std::ranges::upper_bound(sections_, distance, {}, &GroundSection::start);
   return std::prev(next)->ground;
 }
 

@@ -5,14 +5,14 @@
 #include <vector>
 
 #include "core/pose.hpp"
-#include "sim/ground.hpp"
+#include "sim/geometry.hpp"
 #include "sim/motion.hpp"
 #include "sim/route.hpp"
 #include "sim/shaking.hpp"
 
 namespace lego_loam_sc {
 
-/// How a vehicle drives, and what it drives with.
+/// Speed profile and dimensions of a vehicle.
 struct DriveSettings {
   double speed = 1.5;                 ///< m/s on straights
   double acceleration = 0.5;          ///< m/s^2, for braking too
@@ -23,22 +23,22 @@ struct DriveSettings {
   std::uint64_t seed = 0;  ///< of the shaking
 };
 
-/// The ground from a place of a route on. A way that passes over itself, as on two storeys, needs
-/// several; where one takes over, both must be the same as far as the vehicle reaches.
-struct GroundStretch {
+/// The ground from a distance along a route on. A route that crosses over itself, as on two
+/// storeys, needs several; at the transition both must agree within the reach of the vehicle.
+struct GroundSection {
   double start;  ///< m along the route, ascending, 0 for the first
   Ground ground;
 };
 
-/// The motion of a vehicle along a route, from rest to rest: the exact truth at any time, with
+/// The motion of a vehicle along a route, from rest to rest: exact ground truth at any time, with
 /// continuous velocities.
 class Drive {
  public:
-  Drive(Route route, std::vector<GroundStretch> stretches, const DriveSettings& settings);
-  /// With the same ground all the way.
+  Drive(Route route, std::vector<GroundSection> sections, const DriveSettings& settings);
+  /// With the same ground everywhere.
   Drive(Route route, Ground ground, const DriveSettings& settings);
 
-  /// Until it is at rest at the end of the route.
+  /// Until the vehicle rests at the end of the route.
   std::int64_t duration_ns() const;
 
   /// T_world_vehicle; the vehicle frame lies on the ground in the middle of the wheels. Before the
@@ -51,7 +51,7 @@ class Drive {
   Pose shaking_at(double time) const;
 
   Route route_;
-  std::vector<GroundStretch> stretches_;
+  std::vector<GroundSection> sections_;
   double wheel_base_, track_width_;
   std::vector<double> speeds_, times_;  // at equal distances along the route
   ShakingMotion shaking_;

@@ -6,14 +6,14 @@
 
 namespace lego_loam_sc {
 
-/// The measures of a house.
+/// Dimensions of a house.
 struct House {
   double width, depth;  ///< m
   int storeys;
 };
 
 /// A house with windows and doors set back in all four walls, sills, a plinth, pilasters or
-/// downpipes and a parapet: the relief that holds a scan along the street. `T_world_house` places
+/// downpipes and a parapet: relief that constrains a scan along the street. `T_world_house` places
 /// the middle of its front at street level; x runs along the front, y to the back.
 void add_house(Mesh& mesh, const Pose& T_world_house, const House& house, Random& random);
 

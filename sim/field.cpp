@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/field.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "sim/drive.hpp"
 #include "sim/noise.hpp"
+#include "sim/places.hpp"
 #include "sim/props.hpp"
 #include "sim/random.hpp"
 

@@ -7,17 +7,17 @@
 
 namespace lego_loam_sc {
 
-/// A way on the plan as closely set points, m.
+/// A curve in the horizontal plane as closely spaced points, m.
 using Polyline = std::vector<Eigen::Vector2d>;
 
-/// How far every place of the plan is from the nearest of a set of ways, on a grid.
+/// A distance field on a grid: the distance to the nearest of a set of lanes.
 class LaneMap {
  public:
-  /// Distances count up to `reach` (m); farther places have `reach`.
+  /// Distances are capped at `reach` (m).
   LaneMap(std::span<const Polyline> lanes, const Eigen::Vector2d& low, const Eigen::Vector2d& high,
           double cell, double reach);
 
-  /// m, linear between the corners of the grid; at the edge of the map as within.
+  /// m, bilinear interpolation; clamped at the border of the map.
   double distance(const Eigen::Vector2d& place) const;
 
   // The corners of the grid.

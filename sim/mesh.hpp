@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/pose.hpp"
-#include "sim/ground.hpp"
+#include "sim/geometry.hpp"
 
 namespace lego_loam_sc {
 

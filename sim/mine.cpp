@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/mine.hpp"
-
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -8,6 +6,7 @@
 #include "sim/drive.hpp"
 #include "sim/mine_fittings.hpp"
 #include "sim/noise.hpp"
+#include "sim/places.hpp"
 #include "sim/random.hpp"
 #include "sim/roadway.hpp"
 

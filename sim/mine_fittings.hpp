@@ -7,8 +7,8 @@
 
 namespace lego_loam_sc {
 
-// What stands and hangs in a mine's roadway, between two distances (m) along its line. All of it
-// leaves the middle free, 1.5 m to either side and 2 m high.
+// Equipment in a mine's roadway, between two distances (m) along its line. The middle stays free,
+// 1.5 m to either side and 2 m high.
 
 /// Two pipes along the right wall.
 void add_pipes(Mesh& mesh, const Roadway& roadway, double from, double to);

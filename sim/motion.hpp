@@ -8,7 +8,7 @@
 
 namespace lego_loam_sc {
 
-/// How something moves: the exact truth at any time. Called from many threads at once.
+/// The motion of a vehicle: exact ground truth at any time. Called concurrently.
 struct Motion {
   /// T_world_vehicle; the vehicle frame lies on the ground in the middle of the wheels. Before the
   /// start and after the end the vehicle rests.

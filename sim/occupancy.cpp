@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/left_of.hpp"
+#include "sim/geometry.hpp"
 
 namespace lego_loam_sc {
 namespace {

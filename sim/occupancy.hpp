@@ -8,20 +8,20 @@
 
 namespace lego_loam_sc {
 
-/// The footprint of a thing on the plan.
+/// The footprint of an object in the horizontal plane.
 struct Footprint {
   Eigen::Vector2d middle;
   Eigen::Vector2d along;  ///< of length 1
   double length, width;   ///< m, along and across
 };
 
-/// Which places of a plan are taken, so that nothing stands in another thing or on a lane.
+/// Occupied area of the ground, so that objects intersect neither each other nor lanes.
 class Occupancy {
  public:
   explicit Occupancy(const LaneMap& lanes);
 
-  /// Takes the footprint and returns true when all of it is free and at least `from_lanes` (m) away
-  /// from every lane.
+  /// Occupies the footprint and returns true when all of it is free and at least `from_lanes` (m)
+  /// away from every lane.
   bool take(const Footprint& footprint, double from_lanes);
 
  private:

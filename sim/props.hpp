@@ -7,8 +7,8 @@
 
 namespace lego_loam_sc {
 
-// The things that stand about. `T_world_thing` places the middle of the thing's base on the
-// ground, x along its length. Sizes and materials vary at random within what is usual.
+// Objects beside a road. `T_world_...` places the centre of the base on the ground, x along the
+// length. Sizes and materials vary randomly within usual limits.
 
 /// A parked car: hatchback, saloon or van, 3.8 to 5 m long.
 void add_car(Mesh& mesh, const Pose& T_world_car, Random& random);

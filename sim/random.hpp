@@ -7,7 +7,7 @@
 
 namespace lego_loam_sc {
 
-/// Mixes a 64-bit value well (the finaliser of splitmix64), and a key from several numbers.
+/// Hashes a 64-bit value (the finaliser of splitmix64), or several numbers to a key.
 constexpr std::uint64_t hash(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15ULL;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
@@ -19,10 +19,10 @@ constexpr std::uint64_t hash(std::uint64_t first, std::uint64_t second, More... 
   return hash(hash(first) ^ second, more...);
 }
 
-/// A sequence of random numbers that its key alone decides. It costs nothing to make, so every ray
-/// has its own, and the result does not depend on who casts which ray. The distributions are our
-/// own since those of the standard library differ from one library to the next. Draw once per
-/// statement or within braces: the order in which arguments of a function are computed is open.
+/// A sequence of random numbers determined by its key alone. Construction is free, so every ray has
+/// its own, and the result does not depend on the number of threads. The distributions of the
+/// standard library differ between implementations, hence these. Draw once per statement or within
+/// braces: the evaluation order of function arguments is unspecified.
 class Random {
  public:
   explicit Random(std::uint64_t key) : key_(key) {}

@@ -11,15 +11,15 @@
 
 namespace lego_loam_sc {
 
-/// What a ray met first.
+/// The first intersection of a ray.
 struct Hit {
   double range;          ///< m
   double cos_incidence;  ///< cosine of the angle between the ray and the surface normal, 0 to 1
   double reflectivity;   ///< of the surface, 0 to 1
 };
 
-/// Finds the first triangle on a ray. The only place that knows Embree, which only picks the
-/// triangle, in single precision; the range is computed in double precision from its plane.
+/// Finds the first triangle on a ray. The only place that uses Embree, which finds the triangle in
+/// single precision; the range is computed in double precision from its plane.
 class RayCaster {
  public:
   /// Throws std::runtime_error when Embree cannot hold the mesh.
@@ -28,7 +28,7 @@ class RayCaster {
   RayCaster(RayCaster&&) noexcept;
 
   /// The first hit within `max_range` (m) of a ray in world coordinates, or nothing. `direction`
-  /// has length 1. May be called from many threads at once.
+  /// has length 1. May be called concurrently.
   std::optional<Hit> cast(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                           double max_range) const;
 

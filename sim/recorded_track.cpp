@@ -10,8 +10,6 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "core/time.hpp"
-#include "io/kitti_folder.hpp"
-#include "io/trajectory.hpp"
 
 namespace lego_loam_sc {
 namespace {
@@ -19,13 +17,13 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kInterval = 0.1;        // s between the samples of the track
-constexpr double kShortest = 2.0;        // s; what lasts less is smoothed away
-constexpr double kPathSpacing = 1.0;     // m between the controls of a path
-constexpr double kMinLength = 20.0;      // m
-constexpr double kMaxExtent = 4000.0;    // m; the city is as large as the route
-constexpr double kMaxSpeed = 60.0;       // m/s
-constexpr double kLongest = 4 * 3600.0;  // s
+constexpr double kInterval = 0.1;            // s between the samples of the track
+constexpr double kSmoothing = 2.0;           // s; shorter periods are smoothed away
+constexpr double kPathSpacing = 1.0;         // m between the controls of a path
+constexpr double kMinLength = 20.0;          // m
+constexpr double kMaxExtent = 4000.0;        // m; the city is as large as the route
+constexpr double kMaxSpeed = 60.0;           // m/s
+constexpr double kMaxDuration = 4 * 3600.0;  // s
 
 // x, y, z, yaw of each pose.
 using Sample = Eigen::Vector4d;
@@ -38,28 +36,28 @@ Sample sample_of(const Pose& pose) {
 
 void check(const Trajectory& route) {
   if (route.empty()) throw InputError("the route has no poses");
-  if (seconds(route.back().stamp_ns - route.front().stamp_ns) > kLongest)
-    throw InputError("the route lasts longer than " + to_fixed(kLongest, 0) +
-                     " s, take a part of it");
+  if (seconds(route.back().stamp_ns - route.front().stamp_ns) > kMaxDuration)
+    throw InputError("the route lasts longer than " + to_fixed(kMaxDuration, 0) +
+                     " s; give a part of it");
   Vector3d low = route.front().pose.translation(), high = low;
   for (std::size_t i = 1; i < route.size(); ++i) {
     const Vector3d here = route[i].pose.translation();
     const double step = (here - route[i - 1].pose.translation()).norm();
     const double time = seconds(route[i].stamp_ns - route[i - 1].stamp_ns);
     const std::string place = "pose " + std::to_string(i + 1) + " of the route";
-    if (time <= 0.0) throw InputError(place + " is not later than the one before, sort the file");
+    if (time <= 0.0) throw InputError(place + " is not later than the previous one; sort the file");
     if (step > kMaxSpeed * time)
-      throw InputError(place + " is " + to_fixed(step, 1) + " m from the one before in " +
-                       to_fixed(time, 1) + " s, which is too fast for a vehicle");
+      throw InputError(place + " is " + to_fixed(step, 1) + " m from the previous one in " +
+                       to_fixed(time, 1) + " s, too fast for a vehicle");
     low = low.cwiseMin(here);
     high = high.cwiseMax(here);
   }
   if ((high - low).maxCoeff() > kMaxExtent)
     throw InputError("the route is wider than " + to_fixed(kMaxExtent, 0) +
-                     " m, take a part of it");
+                     " m; give a part of it");
 }
 
-// At equal intervals, with the yaw unwrapped.
+// Samples at equal intervals, with unwrapped yaw.
 std::vector<Sample> resample(const Trajectory& route) {
   std::vector<Sample> samples;
   Sample before = sample_of(route.front().pose);
@@ -70,7 +68,7 @@ std::vector<Sample> resample(const Trajectory& route) {
     Sample here = sample_of(route[i].pose);
     here[3] = before[3] + std::remainder(here[3] - before[3], 2.0 * std::numbers::pi);
     const double time = seconds(route[i].stamp_ns) - start;
-    // Half a millisecond of slack: stamps are rounded.
+    // Half a millisecond of tolerance for rounded stamps.
     for (double t = static_cast<double>(samples.size()) * kInterval; t < time + 5e-4;
          t = static_cast<double>(samples.size()) * kInterval)
       samples.emplace_back(before + (t - time_before) / (time - time_before) * (here - before));
@@ -80,8 +78,8 @@ std::vector<Sample> resample(const Trajectory& route) {
   return samples;
 }
 
-// Keeps what is slower than `period` (s): the least squares of the residuals and of the third
-// differences (Whittaker's smoother).
+// Low-pass filter that keeps periods above `period` (s): least squares of the residuals and of the
+// third differences (Whittaker smoother).
 std::vector<Sample> smoothed(const std::vector<Sample>& samples, double period) {
   const auto n = static_cast<Eigen::Index>(samples.size());
   const double gain = 2.0 * std::sin(std::numbers::pi * kInterval / period);
@@ -109,28 +107,15 @@ std::vector<Sample> smoothed(const std::vector<Sample>& samples, double period) 
 
 }  // namespace
 
-Trajectory read_route(const std::filesystem::path& path) {
-  PoseFile file = read_poses(path);
-  if (!file.has_stamps) {
-    const Eigen::Matrix3d axes = R_camera_lidar();
-    for (StampedPose& stamped : file.poses) {
-      stamped.stamp_ns *= 100'000'000;
-      stamped.pose.translation() = axes.transpose() * stamped.pose.translation();
-      stamped.pose.linear() = axes.transpose() * stamped.pose.linear() * axes;
-    }
-  }
-  return std::move(file.poses);
-}
-
 Track make_track(const Trajectory& route) {
   check(route);
   std::vector<Vector3d> plan;
   std::vector<double> height;
-  for (const Sample& sample : smoothed(resample(route), kShortest)) {
+  for (const Sample& sample : smoothed(resample(route), kSmoothing)) {
     plan.emplace_back(sample[0], sample[1], sample[3]);
     height.push_back(sample[2]);
   }
-  double length = 0.0;  // the jitter of a vehicle at rest is no way
+  double length = 0.0;  // the smoothed track: jitter at rest adds no length
   for (std::size_t i = 1; i < plan.size(); ++i) length += (plan[i] - plan[i - 1]).head<2>().norm();
   if (length < kMinLength)
     throw InputError("the route is " + to_fixed(length, 1) + " m long, a city needs " +
@@ -139,15 +124,15 @@ Track make_track(const Trajectory& route) {
           UniformSpline<double>(std::move(height), kInterval)};
 }
 
-Way way_of(const Track& track) {
-  constexpr int kPieces = 10;  // of an interval
+TrackPath path_of(const Track& track) {
+  constexpr int kSubsteps = 10;  // per interval
   std::vector<Vector2d> points = {track.plan.at(0.0).head<2>()};
   std::vector<double> lengths = {0.0};
   Vector2d before = points.front();
   double travelled = 0.0;
-  const auto pieces = static_cast<int>(std::lround(track.plan.end() / kInterval)) * kPieces;
-  for (int i = 1; i <= pieces; ++i) {
-    const Vector2d here = track.plan.at(i * kInterval / kPieces).head<2>();
+  const auto steps = static_cast<int>(std::lround(track.plan.end() / kInterval)) * kSubsteps;
+  for (int i = 1; i <= steps; ++i) {
+    const Vector2d here = track.plan.at(i * kInterval / kSubsteps).head<2>();
     const double step = (here - before).norm();
     while (travelled + step >= kPathSpacing * static_cast<double>(points.size())) {
       const double missing = kPathSpacing * static_cast<double>(points.size()) - travelled;
@@ -155,7 +140,7 @@ Way way_of(const Track& track) {
     }
     travelled += step;
     before = here;
-    if (i % kPieces == 0) lengths.push_back(travelled);
+    if (i % kSubsteps == 0) lengths.push_back(travelled);
   }
   return {UniformSpline<Vector2d>(std::move(points), kPathSpacing),
           UniformSpline<double>(std::move(lengths), kInterval)};

@@ -2,36 +2,30 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <filesystem>
 
 #include "core/trajectory.hpp"
 #include "sim/uniform_spline.hpp"
 
 namespace lego_loam_sc {
 
-/// Where a vehicle was on the plan at each time.
+/// The trajectory of a vehicle in the horizontal plane, with its height.
 struct Track {
-  UniformSpline<Eigen::Vector3d> plan;  ///< x, y (m) and yaw (rad, not wrapped) over time (s)
+  UniformSpline<Eigen::Vector3d> plan;  ///< x, y (m), yaw (rad, unwrapped) over time (s)
   UniformSpline<double> height;         ///< m, over time (s)
 };
 
-/// Reads a route: a KITTI file (poses of a camera, x right, y down, z forward, ten a second) or a
-/// TUM file (poses with x forward, y left, z up, and stamps). The result has the latter's axes and
-/// the poses of the file. Throws InputError when it is no route for a vehicle, names the place.
-Trajectory read_route(const std::filesystem::path& path);
-
-/// The smooth motion through the poses of a route from the first stamp on, free of the jumps of a
-/// recording: what lasts less than two seconds is smoothed away. Throws InputError when the route
-/// is too short, too wide, faster than any car or its stamps do not rise.
+/// The smooth motion along the poses of a route from the first stamp on. Motion of periods below
+/// two seconds, such as jumps of a recording, is smoothed away. Throws InputError when the route is
+/// too short, too wide, faster than any car or its stamps do not ascend.
 Track make_track(const Trajectory& route);
 
-/// The way of a track by distance.
-struct Way {
-  UniformSpline<Eigen::Vector2d> path;  ///< x, y (m) over the length travelled (m)
-  UniformSpline<double> travelled;      ///< m, over time (s)
+/// A track parametrised by distance.
+struct TrackPath {
+  UniformSpline<Eigen::Vector2d> curve;  ///< x, y (m) over the length travelled (m)
+  UniformSpline<double> travelled;       ///< m, over time (s)
 };
 
-/// Measures how far a track has led at each time.
-Way way_of(const Track& track);
+/// Parametrises a track by distance.
+TrackPath path_of(const Track& track);
 
 }  // namespace lego_loam_sc

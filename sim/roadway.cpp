@@ -8,7 +8,7 @@
 #include <numbers>
 #include <utility>
 
-#include "sim/left_of.hpp"
+#include "sim/geometry.hpp"
 #include "sim/noise.hpp"
 
 namespace lego_loam_sc {

@@ -8,16 +8,16 @@
 
 #include "core/pose.hpp"
 #include "sim/arch.hpp"
-#include "sim/ground.hpp"
+#include "sim/geometry.hpp"
 #include "sim/mesh.hpp"
 #include "sim/route.hpp"
 
 namespace lego_loam_sc {
 
-/// What all the roadways of a mine are cut into.
+/// The rock of a mine, common to all its roadways.
 struct Rock {
-  Ground floor;        ///< along which they are driven, without gravel and ridges
-  std::uint64_t seed;  ///< of all that is rough
+  Ground floor;        ///< floor height without gravel and ridges
+  std::uint64_t seed;  ///< of the roughness
 };
 
 /// A mine's roadway, cut along a line with an arched section: 4.7 to 5.5 m wide, 3.3 to 3.9 m high,

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "sim/left_of.hpp"
+#include "sim/geometry.hpp"
 
 namespace lego_loam_sc {
 namespace {

@@ -8,7 +8,7 @@
 
 namespace lego_loam_sc {
 
-/// Shaking of a vehicle, as root mean squares: noise between 0.5 and 4 Hz.
+/// RMS amplitudes of a vehicle's shaking, which is noise between 0.5 and 4 Hz.
 struct Shaking {
   double roll_deg = 0.0;
   double pitch_deg = 0.0;
@@ -16,7 +16,7 @@ struct Shaking {
   double z = 0.0;  ///< m
 };
 
-/// The shaking over time, smooth and decided by its seed.
+/// Shaking over time, smooth and determined by its seed.
 class ShakingMotion {
  public:
   ShakingMotion(const Shaking& rms, std::uint64_t seed);

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/street.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +8,7 @@
 #include "sim/drive.hpp"
 #include "sim/facade.hpp"
 #include "sim/materials.hpp"
+#include "sim/places.hpp"
 #include "sim/props.hpp"
 #include "sim/random.hpp"
 

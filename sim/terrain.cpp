@@ -101,7 +101,7 @@ Vector2d Terrain::slope(const Vector2d& place) const {
   return sum / kSpacing;
 }
 
-Terrain Terrain::along(std::span<const Vector3d> way, const Vector2d& low, const Vector2d& high) {
+Terrain Terrain::along(std::span<const Vector3d> path, const Vector2d& low, const Vector2d& high) {
   Terrain terrain(low, high);
   Equations equations(terrain.nx_ * terrain.ny_);
   const auto add_height = [&](const Vector3d& place, double factor) {
@@ -111,12 +111,12 @@ Terrain Terrain::along(std::span<const Vector3d> way, const Vector2d& low, const
       for (int j = 0; j < 4; ++j)
         equations.add((patch.i + i) * terrain.ny_ + patch.j + j, factor * wx[i] * wy[j]);
   };
-  add_height(way.front(), 1.0 / kClimbError);
-  equations.close_row(way.front().z() / kClimbError);
-  for (std::size_t i = 1; i < way.size(); ++i) {
-    add_height(way[i], 1.0 / kClimbError);
-    add_height(way[i - 1], -1.0 / kClimbError);
-    equations.close_row((way[i].z() - way[i - 1].z()) / kClimbError);
+  add_height(path.front(), 1.0 / kClimbError);
+  equations.close_row(path.front().z() / kClimbError);
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    add_height(path[i], 1.0 / kClimbError);
+    add_height(path[i - 1], -1.0 / kClimbError);
+    equations.close_row((path[i].z() - path[i - 1].z()) / kClimbError);
   }
   const auto add_bend = [&](int a, int b, int c, int d, double factor) {
     equations.add(a, factor);

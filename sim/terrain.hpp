@@ -12,13 +12,13 @@ namespace lego_loam_sc {
 /// Gentle ground: a bicubic B-spline over a square grid, twice differentiable.
 class Terrain {
  public:
-  /// The smoothest ground over the rectangle from `low` to `high` (m) that climbs along `way` as
-  /// its points (m) climb and has the first one's height there. Where the way comes back to a
-  /// place, the heights agree: what the climbs of a loop do not cancel is spread over it.
-  static Terrain along(std::span<const Eigen::Vector3d> way, const Eigen::Vector2d& low,
+  /// The smoothest ground over the rectangle from `low` to `high` (m) with the slopes along `path`
+  /// (points, m) and the height of its first point. Where the path revisits a place the heights
+  /// agree: the closing error of a loop is distributed over it.
+  static Terrain along(std::span<const Eigen::Vector3d> path, const Eigen::Vector2d& low,
                        const Eigen::Vector2d& high);
 
-  /// m. Outside the rectangle the ground goes on as at its edge.
+  /// m. Outside the rectangle the ground is that of its edge.
   double height(const Eigen::Vector2d& place) const;
 
   /// Derivative of the height along x and y.
@@ -35,7 +35,7 @@ class Terrain {
   std::vector<double> controls_;  // y fastest
 };
 
-/// A thing on the ground at `place`, upright on its slope, with x towards `yaw` (rad).
+/// The pose of an object on the ground at `place`, normal to the slope, with x towards `yaw` (rad).
 Pose stand_on(const Terrain& terrain, const Eigen::Vector2d& place, double yaw);
 
 }  // namespace lego_loam_sc

@@ -15,11 +15,11 @@
 
 namespace lego_loam_sc {
 
-/// Something that moves about in a world.
+/// A moving object.
 struct Mover {
   std::size_t model;                               ///< index of its shape
-  std::int64_t from_ns, to_ns;                     ///< it is there between these times
-  std::function<Pose(std::int64_t time_ns)> pose;  ///< T_world_mover; called from many threads
+  std::int64_t from_ns, to_ns;                     ///< time interval of its presence
+  std::function<Pose(std::int64_t time_ns)> pose;  ///< T_world_mover; called concurrently
 };
 
 /// The shapes (in the frames of their movers) and the movers.
@@ -28,12 +28,12 @@ struct TrafficPlan {
   std::vector<Mover> movers;
 };
 
-/// Casts rays at what moves.
+/// Casts rays at moving objects.
 class Traffic {
  public:
   explicit Traffic(TrafficPlan plan = {});
 
-  /// A mover and a sphere (m, in the world) that holds it for some time.
+  /// A mover and its bounding sphere (m, world frame) for some time.
   struct Neighbour {
     const Mover* mover;
     Eigen::Vector3d centre;

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/tunnel.hpp"
-
 #include <algorithm>
 #include <numbers>
 #include <utility>
@@ -8,6 +6,7 @@
 #include "sim/arch.hpp"
 #include "sim/drive.hpp"
 #include "sim/materials.hpp"
+#include "sim/places.hpp"
 #include "sim/random.hpp"
 
 namespace lego_loam_sc {

@@ -4,18 +4,13 @@
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "sim/car_park.hpp"
-#include "sim/city.hpp"
-#include "sim/field.hpp"
-#include "sim/mine.hpp"
-#include "sim/street.hpp"
-#include "sim/tunnel.hpp"
+#include "sim/places.hpp"
 
 namespace lego_loam_sc {
 namespace {
 
 constexpr WorldKind kKinds[] = {
-    {"kitti00", "a city along a route of its own, 3.7 km, or along --route", make_kitti00,
+    {"kitti00", "a city along a built-in route of 3.7 km, or along --route", make_kitti00,
      make_city},
     {"city", "a city along any --route", nullptr, make_city},
     {"parking", "one storey of a car park, a figure of eight of 260 m", make_parking},
@@ -23,7 +18,7 @@ constexpr WorldKind kKinds[] = {
     {"parking2", "the paper's scene 2: two storeys alike, joined by ramps, a loop of 195 m",
      make_parking2},
     {"mine", "a mine's roadways, a loop of 600 m", make_mine},
-    {"tunnel", "300 m of a bore that is the same all along", make_tunnel},
+    {"tunnel", "300 m of a tunnel with a constant cross-section", make_tunnel},
     {"field", "open ground with a few trees, a loop of 350 m", make_field},
     {"street", "a quarter of a town, a loop of 1.1 km", make_street},
 };
@@ -39,7 +34,7 @@ const WorldKind& kind_of(std::string_view name) {
   const auto kind = std::ranges::find(kKinds, name, &WorldKind::name);
   if (kind == std::end(kKinds))
     throw InputError("there is no world '" + std::string(name) +
-                     "', choose one of: " + known_names());
+                     "'; choose one of: " + known_names());
   return *kind;
 }
 
@@ -53,7 +48,7 @@ World make_world(std::string_view name, std::uint64_t seed) {
   const WorldKind& kind = kind_of(name);
   if (!kind.make)
     throw InputError("the world '" + std::string(name) +
-                     "' needs a way to go, give a file of poses with --route");
+                     "' needs a route; give a file of poses with --route");
   return kind.make(seed);
 }
 
@@ -61,7 +56,7 @@ World make_world(std::string_view name, std::uint64_t seed, const Trajectory& ro
   const WorldKind& kind = kind_of(name);
   if (!kind.make_along)
     throw InputError("the world '" + std::string(name) +
-                     "' has its own way, --route goes with city and kitti00");
+                     "' has a fixed route; --route is for city and kitti00");
   return kind.make_along(seed, route);
 }
 

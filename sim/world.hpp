@@ -14,36 +14,36 @@
 
 namespace lego_loam_sc {
 
-/// A place to scan and the way through it.
+/// A world to scan: its geometry, the motion of the vehicle and the traffic.
 struct World {
-  std::string_view sensor;  ///< preset that suits the place
-  double sensor_height;     ///< m above the ground, for sensors that do not state their own
+  std::string_view sensor;  ///< suitable sensor preset
+  double sensor_height;     ///< m above the ground, for sensors without a height
   Mesh mesh;
   Motion motion;                                     ///< of the vehicle that carries the sensor
-  TrafficPlan traffic = {};                          ///< what else moves
-  std::optional<double> range_noise = std::nullopt;  ///< m, one sigma; nothing: as the sensor says
-  bool worn_sensor = false;  ///< the sensor comes with the errors of a used one
+  TrafficPlan traffic = {};                          ///< moving objects
+  std::optional<double> range_noise = std::nullopt;  ///< m, one sigma; nothing: that of the sensor
+  bool worn_sensor = false;  ///< whether the sensor has the errors of used_beams
 };
 
-/// A line of the table of worlds.
+/// An entry of the table of worlds.
 struct WorldKind {
   std::string_view name;
   std::string_view description;  ///< for the help of the program
-  /// None: it needs a route.
+  /// Null: the world needs a route.
   World (*make)(std::uint64_t seed) = nullptr;
-  /// None: it has a way of its own.
+  /// Null: the world has a fixed route.
   World (*make_along)(std::uint64_t seed, const Trajectory& route) = nullptr;
 };
 
 /// All worlds.
 std::span<const WorldKind> world_kinds();
 
-/// Builds a world; the same seed gives the same world. Throws InputError for an unknown name and
+/// Builds a world, which its seed determines. Throws InputError for an unknown name and
 /// for a world that needs a route.
 World make_world(std::string_view name, std::uint64_t seed);
 
-/// Builds a world round a route: T_world_lidar with stamps. Throws InputError for an unknown name
-/// and for a world that has its own way.
+/// Builds a world along a route: T_world_lidar with stamps. Throws InputError for an unknown name
+/// and for a world with a fixed route.
 World make_world(std::string_view name, std::uint64_t seed, const Trajectory& route);
 
 }  // namespace lego_loam_sc

@@ -112,9 +112,9 @@ TEST(Faults, OfAStreamThatIsCutLeaveWhatWasWhole) {
   shell.must("$P simulate parking --count 6 --sensor rs16 -o - > whole");
   fs::resize_file(shell.folder() / "whole", fs::file_size(shell.folder() / "whole") - 1000);
   expect_one_sentence(shell("$P run - -o result --quiet < whole"),
-                      {"standard input", "cut off", "5 scans were whole"});
+                      {"standard input", "truncated", "5 scans were complete"});
   EXPECT_EQ(lines_of(shell.folder() / "result/trajectory.tum").size(), 5U);
-  expect_one_sentence(shell("head -c 10 whole | $P run - -o none --quiet"), {"cut off"});
+  expect_one_sentence(shell("head -c 10 whole | $P run - -o none --quiet"), {"truncated"});
   EXPECT_FALSE(fs::exists(shell.folder() / "none"));
 }
 

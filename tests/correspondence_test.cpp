@@ -39,7 +39,7 @@ class Draw {
     c.point = vector(30.0);
     c.anchor = T_target_source * c.point + vector(off);
     c.direction = kind == Kind::point ? Vector3d(0, 0, 0) : unit();
-    c.age = uniform(-0.05, 0.05);
+    c.time = uniform(-0.05, 0.05);
     c.weight = uniform(0.5, 50.0);
     return c;
   }
@@ -207,10 +207,10 @@ TEST(Correspondence, TheRobustScaleIsTheSigmaOfGaussianResiduals) {
     c.anchor = Vector3d::Zero();
     c.direction = Vector3d::UnitZ();
   }
-  EXPECT_NEAR(robust_scale(all, Pose::Identity(), 3.0, 1e-6, 1e6), 0.06, 0.0015);
+  EXPECT_NEAR(robust_scale(all, Pose::Identity(), {3.0, 1e-6, 1e6}), 0.06, 0.0015);
   // A third of outliers moves it little.
   for (std::size_t i = 0; i < all.size(); i += 3) all[i].point *= 1000.0;
-  EXPECT_LT(robust_scale(all, Pose::Identity(), 3.0, 1e-6, 1e6), 0.12);
+  EXPECT_LT(robust_scale(all, Pose::Identity(), {3.0, 1e-6, 1e6}), 0.12);
 }
 
 TEST(Correspondence, TheRobustScaleStaysWithinItsLimits) {
@@ -219,9 +219,9 @@ TEST(Correspondence, TheRobustScaleStaysWithinItsLimits) {
     c.point = c.anchor = Vector3d::Zero();
     c.direction = Vector3d::UnitX();
   }
-  EXPECT_EQ(robust_scale(all, Pose::Identity(), 2.0, 0.05, 1.0), 0.05);
-  EXPECT_EQ(robust_scale(all, Pose(Eigen::Translation3d(100.0, 0.0, 0.0)), 2.0, 0.05, 1.0), 1.0);
-  EXPECT_EQ(robust_scale({}, Pose::Identity(), 2.0, 0.05, 1.0), 1.0);
+  EXPECT_EQ(robust_scale(all, Pose::Identity(), {2.0, 0.05, 1.0}), 0.05);
+  EXPECT_EQ(robust_scale(all, Pose(Eigen::Translation3d(100.0, 0.0, 0.0)), {2.0, 0.05, 1.0}), 1.0);
+  EXPECT_EQ(robust_scale({}, Pose::Identity(), {2.0, 0.05, 1.0}), 1.0);
 }
 
 }  // namespace

@@ -26,9 +26,9 @@ TEST(Deskew, TheSweepMotionIsTheExactMotion) {
     const SweepMotion motion(twist, 0.05f);
     for (int k = 0; k < 20; ++k) {
       const Vector3d point(30.0 * one(random), 30.0 * one(random), 5.0 * one(random));
-      const auto age = static_cast<float>(0.05 * one(random));
-      const Vector3d exact = exp_se3(twist * static_cast<double>(age)) * point;
-      EXPECT_LT((motion(point.cast<float>(), age).cast<double>() - exact).norm(), 1e-4);
+      const auto time = static_cast<float>(0.05 * one(random));
+      const Vector3d exact = exp_se3(twist * static_cast<double>(time)) * point;
+      EXPECT_LT((motion(point.cast<float>(), time).cast<double>() - exact).norm(), 1e-4);
     }
   }
 }
@@ -37,35 +37,35 @@ TEST(Deskew, TheEndsOfASweepAreExactToo) {
   Vector6 twist;
   twist << 10.0, 1.0, 0.0, 0.1, 0.2, 1.0;
   const SweepMotion motion(twist, 0.05f);
-  for (const float age : {-0.05f, 0.0f, 0.05f}) {
-    const Vector3d exact = exp_se3(twist * static_cast<double>(age)) * Vector3d(20.0, 5.0, 1.0);
-    EXPECT_LT((motion(Vector3f(20, 5, 1), age).cast<double>() - exact).norm(), 1e-5);
+  for (const float time : {-0.05f, 0.0f, 0.05f}) {
+    const Vector3d exact = exp_se3(twist * static_cast<double>(time)) * Vector3d(20.0, 5.0, 1.0);
+    EXPECT_LT((motion(Vector3f(20, 5, 1), time).cast<double>() - exact).norm(), 1e-5);
   }
 }
 
-FeaturePoint point_of_age(const Vector3f& position, float age) {
+FeaturePoint point_at_time(const Vector3f& position, float time) {
   FeaturePoint point;
   point.position = position;
-  point.age = age;
+  point.time = time;
   point.intensity = 7.0f;
   point.row = 3;
   return point;
 }
 
 TEST(Deskew, PointsWithoutTimesStayWhereTheyAre) {
-  const std::vector<FeaturePoint> points{point_of_age({1, 2, 3}, 0.0f)};
+  const std::vector<FeaturePoint> points{point_at_time({1, 2, 3}, 0.0f)};
   EXPECT_EQ(deskew(points, Vector6::Constant(3.0))[0].position, points[0].position);
   EXPECT_TRUE(deskew(std::vector<FeaturePoint>{}, Vector6::Constant(3.0)).empty());
 }
 
 TEST(Deskew, ADeskewedPointHasMovedAndKeepsTheRest) {
-  const std::vector<FeaturePoint> points{point_of_age({1, 2, 3}, 0.02f),
-                                         point_of_age({4, 5, 6}, -0.03f)};
-  EXPECT_FLOAT_EQ(age_span(points), 0.03f);
+  const std::vector<FeaturePoint> points{point_at_time({1, 2, 3}, 0.02f),
+                                         point_at_time({4, 5, 6}, -0.03f)};
+  EXPECT_FLOAT_EQ(max_abs_time(points), 0.03f);
   const std::vector<FeaturePoint> moved = deskew(points, 2.0 * Vector6::Unit(0));
   EXPECT_NEAR(moved[0].position.x(), 1.04, 1e-5);
   EXPECT_NEAR(moved[1].position.x(), 3.94, 1e-5);
-  EXPECT_EQ(moved[0].age, 0.02f);
+  EXPECT_EQ(moved[0].time, 0.02f);
   for (const FeaturePoint& p : moved) {
     EXPECT_EQ(p.intensity, 7.0f);
     EXPECT_EQ(p.row, 3);

@@ -168,8 +168,8 @@ TEST(Errors, EndErrorIsAlongTheAxesOfTheFirstPose) {
       evaluate(Pairs{{start, kFar}, {start * at(30, 0, 0), kFar * turned}});
   EXPECT_TRUE(error.end.translation.isApprox(Eigen::Vector3d(0.5, 0.2, -3), 1e-9));
   EXPECT_NEAR(error.end.rotation_deg, 4.0, 1e-9);
-  EXPECT_NEAR(error.truth_return, 30.0, 1e-9);
-  EXPECT_NEAR(error.estimate_return, turned.translation().norm(), 1e-9);
+  EXPECT_NEAR(error.truth_first_to_last, 30.0, 1e-9);
+  EXPECT_NEAR(error.estimate_first_to_last, turned.translation().norm(), 1e-9);
 }
 
 TEST(Association, TakesTheNearestStampWithinTenMilliseconds) {

@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "io/preset_text.hpp"
+#include "io/presets.hpp"
+#include "io/sensor_presets.hpp"
 #include "io/sensor_yaml.hpp"
 #include "io_test_files.hpp"
 #include "made_scenes.hpp"
@@ -41,7 +42,7 @@ class LearnSensor : public testing::TestWithParam<std::string> {};
 TEST_P(LearnSensor, FindsThePresetBehindScansWithAndWithoutRings) {
   const SensorModel truth = load_sensor(GetParam());
   std::vector<Scan> scans = scans_of(truth);
-  const SensorModel learned = learn_sensor(scans).sensor;
+  const SensorModel learned = learn_sensor(scans, sensor_presets()).sensor;
   expect_beams(learned, truth);
   EXPECT_NEAR(learned.columns, truth.columns, 1);
   EXPECT_EQ(learned.period, 0.1);
@@ -49,7 +50,7 @@ TEST_P(LearnSensor, FindsThePresetBehindScansWithAndWithoutRings) {
   EXPECT_LT(std::abs(std::remainder(learned.start_azimuth_deg - truth.start_azimuth_deg, 360)),
             1.5);
   for (Scan& scan : scans) scan.ring.clear();
-  expect_beams(learn_sensor(scans).sensor, truth);
+  expect_beams(learn_sensor(scans, sensor_presets()).sensor, truth);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, LearnSensor, testing::ValuesIn(preset_names("sensors")), preset_name);
@@ -65,8 +66,9 @@ TEST(LearnSensor, SaysWhichPresetIsNearest) {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> error(-0.07, 0.07);
   for (double& elevation : unit.elevation_deg) elevation += error(random);
-  EXPECT_TRUE(has_note(learn_sensor(scans_of(unit)), "the nearest preset is pandar64"));
-  EXPECT_EQ(recognise_sensor(scans_of(unit)[0], {}).name, "pandar64");
+  EXPECT_TRUE(
+      has_note(learn_sensor(scans_of(unit), sensor_presets()), "the nearest preset is pandar64"));
+  EXPECT_EQ(recognise_sensor(scans_of(unit)[0], sensor_presets()).name, "pandar64");
 }
 
 TEST(LearnSensor, ASensorThatTurnsTheOtherWay) {
@@ -74,7 +76,7 @@ TEST(LearnSensor, ASensorThatTurnsTheOtherWay) {
   sensor.clockwise = false;
   sensor.start_azimuth_deg = 90.0;
   sensor.min_range = 0.1;
-  const SensorModel learned = learn_sensor(scans_of(sensor)).sensor;
+  const SensorModel learned = learn_sensor(scans_of(sensor), sensor_presets()).sensor;
   EXPECT_FALSE(learned.clockwise);
   EXPECT_NEAR(learned.start_azimuth_deg, 90.0, 1.0);
 }
@@ -91,7 +93,7 @@ TEST(LearnSensor, BeamsThatAreMountedOffTheCentreAreNotSplit) {
       scan.points[i].z() -= 0.0007f * static_cast<float>(truth.elevation_deg[scan.ring[i]]);
     scan.ring.clear();
   }
-  EXPECT_EQ(learn_sensor(scans).sensor.rows(), 16);
+  EXPECT_EQ(learn_sensor(scans, sensor_presets()).sensor.rows(), 16);
 }
 
 TEST(LearnSensor, TheBlindRangeIsWhereTheNearestReturnsAre) {
@@ -99,10 +101,10 @@ TEST(LearnSensor, TheBlindRangeIsWhereTheNearestReturnsAre) {
   Scene room;
   room.box({-0.65, -3, -1}, {3, 5, 2});
   const std::vector<Scan> near = {take_scan(room, sensor, pose_of(0, 0, 0))};
-  EXPECT_NEAR(learn_sensor(near).sensor.min_range, 0.6, 1e-9);
-  const LearnedSensor far = learn_sensor(scans_of(sensor));
+  EXPECT_NEAR(learn_sensor(near, sensor_presets()).sensor.min_range, 0.6, 1e-9);
+  const LearnedSensor far = learn_sensor(scans_of(sensor), sensor_presets());
   EXPECT_EQ(far.sensor.min_range, 1.0);
-  EXPECT_TRUE(has_note(far, "nothing was near enough to show the blind zone"));
+  EXPECT_TRUE(has_note(far, "no return was close enough to show the blind zone"));
 }
 
 // A rosette: each of the six lines sweeps the whole field of view, as a Livox Avia's do.
@@ -120,20 +122,22 @@ std::vector<Scan> rosette(bool with_lines) {
 
 TEST(LearnSensor, ASensorThatDoesNotSpinIsRefusedByNameWithTheReason) {
   for (const bool with_lines : {true, false}) {
-    const std::string message = error_of([&] { learn_sensor(rosette(with_lines)); });
+    const std::string message =
+        error_of([&] { learn_sensor(rosette(with_lines), sensor_presets()); });
     EXPECT_NE(message.find("Livox"), message.npos) << message;
     EXPECT_NE(message.find("spin"), message.npos) << message;
   }
   const Scan scan = rosette(true)[0];
-  for (const std::string& message : {error_of([&] { recognise_sensor(scan, {}); }),
+  for (const std::string& message : {error_of([&] { recognise_sensor(scan, sensor_presets()); }),
                                      *sensor_mismatch(scan, load_sensor("vlp16"))})
-    EXPECT_NE(message.find("degrees of elevation, so that the ring field numbers no beams"),
+    EXPECT_NE(message.find("degrees of elevation, so the ring field does not number beams"),
               message.npos)
         << message;
 }
 
 TEST(LearnSensor, TooFewPointsAreRefused) {
-  EXPECT_NE(error_of([] { learn_sensor({}); }).find("0 points with a return"), std::string::npos);
+  EXPECT_NE(error_of([] { learn_sensor({}, sensor_presets()); }).find("0 points with a return"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -171,7 +171,7 @@ TEST(PcdReader, RefusesHeadersThatLie) {
     return error_of([&] { parse_pcd(bytes, "a.pcd"); });
   };
   for (const std::string& good : {pcd_ascii(), pcd_binary(), pcd_compressed()}) {
-    EXPECT_NE(message(with(good, "POINTS 3", "POINTS 4")).find("must be the same"), good.npos);
+    EXPECT_NE(message(with(good, "POINTS 3", "POINTS 4")).find("must be equal"), good.npos);
     const std::string more =
         with(with(good, "POINTS 3", "POINTS 9999999999"), "WIDTH 3", "WIDTH 9999999999");
     EXPECT_NE(message(more).find("9999999999 points"), good.npos);

@@ -117,7 +117,7 @@ TEST(PointTimes, PointsWithoutReturnDoNotCount) {
 
 TEST(PointTimes, AskForTheUnitWhenNoneFits) {
   const std::string message = error_of([] { interpret({0, 5}); });
-  EXPECT_NE(message.find("a.pcd: the times of the points run from 0 to 5"), message.npos);
+  EXPECT_NE(message.find("a.pcd: the point times run from 0 to 5"), message.npos);
   EXPECT_NE(message.find("point_times"), message.npos);
   const std::string coarse =
       error_of([] { interpret({1.6e9, 1.6e9 + 128}, {kStamp, true, {}}, NumberType::float32); });
@@ -133,7 +133,7 @@ TEST(PointTimes, TheUnitCanBeGiven) {
 
 TEST(PointTimes, SaysWhatWasDecided) {
   EXPECT_EQ(interpret({0, 1e5}).decision,
-            "the times of the points are microseconds from the stamp of the scan; a sweep runs "
+            "the point times are microseconds relative to the stamp of the scan; a sweep runs "
             "from 0.0 to 100.0 ms after it");
   EXPECT_TRUE(
       interpret({-0.1, 0}).decision.ends_with("a sweep runs from -100.0 to 0.0 ms after it"));

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/pose.hpp"
+#include "io/sensor_presets.hpp"
 #include "io/sensor_yaml.hpp"
 #include "io_test_files.hpp"
 #include "sensor/recognise_sensor.hpp"
@@ -44,7 +45,7 @@ Scan make_scan(const std::string& sensor_name, Order order, bool numbered) {
 }
 
 std::string recognised(const Scan& scan) {
-  return recognise_sensor(scan, {}).name;
+  return recognise_sensor(scan, sensor_presets()).name;
 }
 
 TEST(RecogniseSensor, ByTheElevationsOfItsPoints) {

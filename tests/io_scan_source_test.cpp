@@ -154,8 +154,8 @@ TEST(ScanSource, ReadsTheFactsOfTheDataset) {
 TEST(ScanSource, SaysWhatIsWrongWithAnInput) {
   const TemporaryFolder folder;
   EXPECT_NE(open_error(folder.path() / "none").find("does not exist"), std::string::npos);
-  EXPECT_NE(open_error(folder.path()).find("holds no scans"), std::string::npos);
-  EXPECT_NE(open_error(folder.write("a.bag", "#ROSBAG V2.0")).find("is no folder of scans"),
+  EXPECT_NE(open_error(folder.path()).find("contains no scans"), std::string::npos);
+  EXPECT_NE(open_error(folder.write("a.bag", "#ROSBAG V2.0")).find("is neither a folder of scans"),
             std::string::npos);
   folder.write("0.bin", bin_of(0));
   folder.write("times.txt", "0\n0.1\n");

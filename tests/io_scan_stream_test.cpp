@@ -87,7 +87,7 @@ TEST(ScanStream, ReturnsTheWholeScansOfACutStreamAndThenSaysWhereItWasCut) {
   ScanStreamReader reader(in, "stream");
   EXPECT_TRUE(reader.next());
   EXPECT_EQ(error_of([&] { reader.next(); }),
-            "stream: it is cut off; 1 scans were whole, the fault is at byte " +
+            "stream: it is truncated; 1 scans were complete, the error is at byte " +
                 std::to_string(bytes.size()));
   EXPECT_FALSE(reader.next());
 }
@@ -106,7 +106,7 @@ TEST(ScanStream, DoesNotAllocateWhatAHeaderPromises) {
     return error_of([&] { reader.next(); });
   };
   EXPECT_NE(message(10'000'001).find("10000001 points"), std::string::npos);
-  EXPECT_NE(message(10'000'000).find("cut off"), std::string::npos);
+  EXPECT_NE(message(10'000'000).find("truncated"), std::string::npos);
 }
 
 TEST(ScanStream, RefusesAnotherVersionAndOtherFiles) {

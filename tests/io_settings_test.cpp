@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "io/preset_text.hpp"
+#include "io/presets.hpp"
 #include "io/sensor_yaml.hpp"
 #include "io/settings_yaml.hpp"
 #include "io/yaml.hpp"
@@ -77,11 +77,11 @@ TEST(SettingsYaml, ABadValueNamesLineKeyAndWhatIsAllowed) {
   expect("loop: {scan_context: {threshold: 3}}", "threshold is 3, it must be a number between 0");
   expect("loop: {scan_context: {threshold: .nan}}", "a number between 0 and 1");
   expect("loop: {scan_context: {threshold: [0.1]}}", "threshold is [0.1]");
-  expect("features: {neighbours: 5.5}", "neighbours is 5.5, it must be a whole number between");
+  expect("features: {neighbours: 5.5}", "neighbours is 5.5, it must be an integer between");
   expect("segmentation: {enabled: on}", "enabled is on, it must be true or false");
   expect("segmentation: {enabled: }", "value is missing");
   expect("segmentation:", "value is missing");
-  expect("features: {neighbours: 5, neighbours: 6}", "features.neighbours is there twice");
+  expect("features: {neighbours: 5, neighbours: 6}", "features.neighbours occurs twice");
   expect("features: {neighbours: {a: 5}}", "there is no features.neighbours.a");
   expect("features: 5", "there is no features");
   expect("[1, 2]", "a list is not expected");

@@ -15,7 +15,6 @@
 #include "io/atomic_file.hpp"
 #include "io/file.hpp"
 #include "io/g2o.hpp"
-#include "io/natural_order.hpp"
 #include "io/trajectory.hpp"
 #include "io_test_files.hpp"
 
@@ -101,8 +100,8 @@ TEST(TrajectoryFiles, WrongLinesAreNamed) {
   expect(good + "1 0 0 nan 0 0 0 1\n", "line 2: \"nan\"");
   expect(good + "1 0 0 0 0 0 0 0\n", "length 0");
   expect("1e300 0 0 0 0 0 0 1\n", "not in seconds");
-  expect("1 0 0 0 0 1 0 0 0 0 -1 0\n", "no rotation");
-  expect("# nothing\n", "holds no pose");
+  expect("1 0 0 0 0 1 0 0 0 0 -1 0\n", "not a rotation");
+  expect("# nothing\n", "contains no pose");
 }
 
 TEST(TrajectoryFiles, SurviveDamage) {

@@ -47,7 +47,7 @@ TEST(KeyFrame, UnpackedPointsAreTheSamePointsInTheirOrder) {
   ASSERT_EQ(features.size(), 2u);
   for (int i = 0; i < 2; ++i) {
     EXPECT_EQ(features[i].position, points[i].position());
-    EXPECT_EQ(features[i].age, 0.0f);
+    EXPECT_EQ(features[i].time, 0.0f);
   }
 }
 

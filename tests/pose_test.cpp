@@ -108,6 +108,7 @@ TEST(Pose, PerturbTurnsTheRotationFromTheLeftAndShiftsTheTranslation) {
   const Eigen::Matrix3d turned =
       Eigen::AngleAxisd(delta.tail<3>().norm(), delta.tail<3>().normalized()) * pose.linear();
   EXPECT_LT((moved.linear() - turned).norm(), 1e-14);
+  EXPECT_LT((perturbation_between(pose, moved) - delta).norm(), 1e-14);
 }
 
 TEST(Pose, NormalizedTakesOutTheErrorsOfManyProducts) {

@@ -61,7 +61,7 @@ Scan numbered_sweep() {
 void expect_same(const RangeImage& image, const RangeImage& expected) {
   EXPECT_EQ(image.points, expected.points);
   EXPECT_EQ(image.intensity, expected.intensity);
-  EXPECT_EQ(image.age, expected.age);
+  EXPECT_EQ(image.time, expected.time);
   EXPECT_EQ(image.column, expected.column);
   EXPECT_EQ(image.row_begin, expected.row_begin);
   EXPECT_EQ(image.pixels, expected.pixels);
@@ -90,7 +90,7 @@ TEST(RangeImage, EveryAttributeFollowsItsPoint) {
     EXPECT_EQ(image.points[k], numbered.points[i]);
     EXPECT_FLOAT_EQ(image.range[k], numbered.points[i].norm());
     const std::int64_t time =
-        image.reference_ns + std::llround(1e9 * static_cast<double>(image.age[k]));
+        image.reference_ns + std::llround(1e9 * static_cast<double>(image.time[k]));
     EXPECT_NEAR(static_cast<double>(time - numbered.stamp_ns), numbered.offset_ns[i], 10.0);
     const auto row = std::upper_bound(image.row_begin.begin(), image.row_begin.end(), k) -
                      image.row_begin.begin() - 1;
@@ -208,7 +208,7 @@ TEST(RangeImage, AgesCountFromTheMiddleOfTheSweep) {
   scan.stamp_ns += 100'000'000;
   const RangeImage shifted = project(scan, sensor);
   EXPECT_EQ(shifted.reference_ns, image.reference_ns);
-  EXPECT_EQ(shifted.age, image.age);
+  EXPECT_EQ(shifted.time, image.time);
   EXPECT_EQ(shifted.stamp_ns, image.stamp_ns + 100'000'000);
 }
 
@@ -226,8 +226,8 @@ TEST(RangeImage, TheAzimuthTellsTheAgeOfARawSweepWithoutTimes) {
       const RangeImage image = project(scan, sensor);
       EXPECT_EQ(image.reference_ns - scan.stamp_ns, 50'000'000);
       for (std::size_t k = 0; k < image.size(); ++k)
-        EXPECT_NEAR(image.age[k], 1e-9 * times[static_cast<std::size_t>(image.intensity[k])] - 0.05,
-                    1e-6);
+        EXPECT_NEAR(image.time[k],
+                    1e-9 * times[static_cast<std::size_t>(image.intensity[k])] - 0.05, 1e-6);
     }
   }
 }
@@ -239,7 +239,7 @@ TEST(RangeImage, CompensatedScansAndScansWithoutTimesHaveNoAges) {
   const auto expect_no_ages = [&] {
     const RangeImage image = project(scan, sensor);
     EXPECT_EQ(image.reference_ns, scan.stamp_ns);
-    EXPECT_EQ(std::count(image.age.begin(), image.age.end(), 0.0f),
+    EXPECT_EQ(std::count(image.time.begin(), image.time.end(), 0.0f),
               static_cast<std::ptrdiff_t>(scan.size()));
   };
   expect_no_ages();
@@ -259,7 +259,7 @@ TEST(RangeImage, TheUsualStepIsThatOfMostPoints) {
                            std::tan(radians(sensor.elevation_deg[8])));
       add_point(scan, (10.0 * point).cast<float>(), 8, 0);
     }
-    EXPECT_EQ(project(scan, sensor).usual_step, step);
+    EXPECT_EQ(project(scan, sensor).column_step, step);
   }
 }
 

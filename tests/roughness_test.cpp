@@ -74,26 +74,26 @@ TEST(FeatureRow, AHolePartsObjectsSoonerThanTheGround) {
   for (int trial = 0; trial < 60; ++trial) {
     RangeImage image;
     image.rows = 1;
-    image.usual_step = 1 + trial % 3;
+    image.column_step = 1 + trial % 3;
     Segmentation segmentation;
     int column = static_cast<int>(random() % 5);
     for (int i = 0; i < 200; ++i) {
       image.range.push_back(10.0f);
       image.column.push_back(static_cast<std::uint16_t>(column));
       segmentation.label.push_back(random() % 2 == 0 ? Label::ground : Label::segment);
-      column += static_cast<int>(random() % (12 * image.usual_step));
+      column += static_cast<int>(random() % (12 * image.column_step));
     }
     image.columns = column + 1;  // the seam is as wide as any step
     image.row_begin = {0, 200};
     FeatureRow row;
-    row.take(image, segmentation, 0, settings, RoughnessThreshold(SensorModel{}, settings));
+    row.load(image, segmentation, 0, settings, RoughnessThreshold(SensorModel{}, settings));
     ASSERT_EQ(row.size(), 200);
     for (int i = 0; i < 200; ++i) {
       const int before = (i + 199) % 200;
       const int step = (image.column[i] - image.column[before] + image.columns) % image.columns;
       const bool both_ground =
           segmentation.label[i] == Label::ground && segmentation.label[before] == Label::ground;
-      EXPECT_EQ(row.gap_before[i] != 0, step > (both_ground ? 10 : 2) * image.usual_step)
+      EXPECT_EQ(row.gap_before[i] != 0, step > (both_ground ? 10 : 2) * image.column_step)
           << "trial " << trial << ", point " << i << ", step " << step;
     }
   }

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "io/preset_text.hpp"
+#include "io/presets.hpp"
 #include "io/sensor_yaml.hpp"
 #include "made_scenes.hpp"
 #include "preset_name.hpp"

@@ -6,12 +6,12 @@
 namespace lego_loam_sc {
 namespace {
 
-MapMatch matched(int agreeing) {
+MapMatch matched(int inliers) {
   MapMatch match;
   match.matched = true;
   match.points = 100;
   match.matches = 80;
-  match.agreeing = agreeing;
+  match.inliers = inliers;
   return match;
 }
 

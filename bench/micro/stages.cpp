@@ -20,6 +20,7 @@
 #include "features/features.hpp"
 #include "graph.hpp"
 #include "io/scan_source.hpp"
+#include "io/sensor_presets.hpp"
 #include "key_frames/make_key_frame.hpp"
 #include "loop/scan_context.hpp"
 #include "loop/scan_context_index.hpp"
@@ -28,7 +29,6 @@
 #include "registration/deskew.hpp"
 #include "segmentation/range_image.hpp"
 #include "segmentation/segmentation.hpp"
-#include "sensor/recognise_sensor.hpp"
 
 namespace lego_loam_sc {
 namespace {

@@ -116,7 +116,7 @@ def test_the_decision_says_where_the_stamp_lies_in_the_sweep():
         return interpret(array, np.ones(array.shape, bool), STAMP, None).decision
 
     assert decision([0, 1e5]) == (
-        "microseconds from the stamp of the scan; a sweep runs from 0.0 to 100.0 ms after it"
+        "microseconds relative to the stamp of the scan; a sweep runs from 0.0 to 100.0 ms after it"
     )
     assert decision([-0.1, 0]).endswith("a sweep runs from -100.0 to 0.0 ms after it")
     assert "on the clock of the stamp" in decision([1.6e9 - 0.1, 1.6e9])

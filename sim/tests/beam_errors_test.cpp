@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "sim/beam_errors.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numeric>
 
-#include "sim/beam_errors.hpp"
 #include "sim/lidar.hpp"
 
 namespace lego_loam_sc {

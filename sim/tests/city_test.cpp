@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/city.hpp"
 #include "sim/city_route.hpp"
 #include "sim/drive.hpp"
+#include "sim/places.hpp"
 #include "sim/ray_caster.hpp"
 
 namespace lego_loam_sc {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "sim/drive.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
-
-#include "sim/drive.hpp"
 
 namespace lego_loam_sc {
 namespace {
@@ -114,7 +114,7 @@ TEST(SimDrive, AWayThatPassesOverItselfHasTheGroundOfEachPart) {
   };
   const auto level = [](double, double) { return 3.0; };
   const Route route({{0, 0}, {30, 0}, {30, 20}, {10, 20}, {10, -20}}, 3.0);
-  const Drive drive(route, std::vector<GroundStretch>{{0.0, slope}, {24.0, level}}, {});
+  const Drive drive(route, std::vector<GroundSection>{{0.0, slope}, {24.0, level}}, {});
   std::vector<double> heights;  // over the crossing
   for (std::int64_t t = 0; t < drive.duration_ns(); t += 10 * millisecond) {
     const Vector3d place = drive.pose(t).translation();

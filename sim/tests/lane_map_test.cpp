@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "sim/lane_map.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "sim/lane_map.hpp"
 #include "sim/occupancy.hpp"
 
 namespace lego_loam_sc {

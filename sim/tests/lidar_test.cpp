@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "sim/lidar.hpp"
+
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
@@ -6,8 +8,6 @@
 #include <cmath>
 #include <limits>
 #include <vector>
-
-#include "sim/lidar.hpp"
 
 namespace lego_loam_sc {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "sim/ray_caster.hpp"
+
 #include <gtest/gtest.h>
 
 #include <optional>
 #include <vector>
-
-#include "sim/ray_caster.hpp"
 
 namespace lego_loam_sc {
 namespace {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "sim/recorded_track.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,7 +11,6 @@
 #include "io/trajectory.hpp"
 #include "io_test_files.hpp"
 #include "sim/random.hpp"
-#include "sim/recorded_track.hpp"
 
 namespace lego_loam_sc {
 namespace {
@@ -61,7 +62,7 @@ TEST(SimRecordedTrack, SmoothsTheJumpsOfARecordingAway) {
   for (double t = 1.0; t < 61.0; t += 0.1)
     worst = std::max(worst, std::abs(track.plan.derivative(t).head<2>().norm() - speed));
   EXPECT_LT(worst, 0.3);
-  EXPECT_NEAR(way_of(track).path.end(), 62.0 * speed, 0.001 * 62.0 * speed + 1.0);
+  EXPECT_NEAR(path_of(track).curve.end(), 62.0 * speed, 0.001 * 62.0 * speed + 1.0);
 }
 
 TEST(SimRecordedTrack, ResamplesARouteOfAnotherRate) {
@@ -72,11 +73,11 @@ TEST(SimRecordedTrack, ResamplesARouteOfAnotherRate) {
 
 TEST(SimRecordedTrack, TheWayIsTheSameByDistance) {
   const Track track = make_track(circle());
-  const Way way = way_of(track);
+  const TrackPath path = path_of(track);
   for (double t = 0.0; t < 60.0; t += 0.7) {
-    const double travelled = way.travelled.at(t);
+    const double travelled = path.travelled.at(t);
     EXPECT_NEAR(travelled, speed * t, 0.05);
-    EXPECT_LT((way.path.at(travelled) - track.plan.at(t).head<2>()).norm(), 0.05);
+    EXPECT_LT((path.curve.at(travelled) - track.plan.at(t).head<2>()).norm(), 0.05);
   }
 }
 

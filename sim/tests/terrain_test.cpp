@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "sim/terrain.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -6,7 +8,6 @@
 #include <vector>
 
 #include "core/pose.hpp"
-#include "sim/terrain.hpp"
 
 namespace lego_loam_sc {
 namespace {

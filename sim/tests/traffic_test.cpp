@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "sim/traffic.hpp"
+
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
 #include <cmath>
 
 #include "sim/lidar.hpp"
-#include "sim/traffic.hpp"
 
 namespace lego_loam_sc {
 namespace {

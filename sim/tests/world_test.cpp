@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "sim/world.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,7 +10,6 @@
 #include "core/error.hpp"
 #include "path_length.hpp"
 #include "sim/ray_caster.hpp"
-#include "sim/world.hpp"
 
 namespace lego_loam_sc {
 namespace {

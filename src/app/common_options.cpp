@@ -3,8 +3,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "io/sensor_presets.hpp"
 #include "io/sensor_yaml.hpp"
-#include "sensor/recognise_sensor.hpp"
 
 namespace lego_loam_sc {
 

@@ -29,7 +29,7 @@ void measure_roughness(const SensorModel& sensor, const FeatureSettings& setting
   const RoughnessThreshold c_th(sensor, settings);
   FeatureRow row;
   for (int number = 0; number < stages.image.rows; ++number) {
-    row.take(stages.image, stages.segmentation, number, settings, c_th);
+    row.load(stages.image, stages.segmentation, number, settings, c_th);
     for (int i = 0; i < row.size(); ++i) {
       stages.roughness[row.index[i]] = row.roughness[i];
       stages.sharpness[row.index[i]] = row.roughness[i] / row.threshold[i];

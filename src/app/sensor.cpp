@@ -15,6 +15,7 @@
 #include "app/scan_prefetcher.hpp"
 #include "core/error.hpp"
 #include "io/atomic_file.hpp"
+#include "io/sensor_presets.hpp"
 #include "io/sensor_yaml.hpp"
 #include "sensor/learn_sensor.hpp"
 
@@ -47,7 +48,7 @@ void learn(const Options& options) {
   const std::vector<Scan> scans = read_scans(options);
   LearnedSensor learned;
   try {
-    learned = learn_sensor(scans);
+    learned = learn_sensor(scans, sensor_presets());
   } catch (const InputError& error) {
     throw InputError(options.input + ": " + error.what());
   }

@@ -26,7 +26,6 @@
 #include "sim/beam_errors.hpp"
 #include "sim/lidar.hpp"
 #include "sim/ray_caster.hpp"
-#include "sim/recorded_track.hpp"
 #include "sim/world.hpp"
 
 namespace lego_loam_sc {

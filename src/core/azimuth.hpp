@@ -6,9 +6,8 @@
 
 namespace lego_loam_sc {
 
-/// atan2 in (-pi, pi] to within 1e-5 rad, a hundredth of a column of the finest image: the
-/// azimuth of 100,000 points per scan is needed for nothing finer. Minimax polynomial of atan on
-/// [0, 1] (odd, degree 11).
+/// atan2 in (-pi, pi] with an error of at most 1e-5 rad, a hundredth of a column of the finest
+/// range image. Odd minimax polynomial of atan on [0, 1], degree 11.
 inline float fast_atan2(float y, float x) {
   const float ax = std::abs(x);
   const float ay = std::abs(y);
@@ -20,7 +19,7 @@ inline float fast_atan2(float y, float x) {
       a * (0.99997726f +
            s * (-0.33262347f +
                 s * (0.19354346f + s * (-0.11643287f + s * (0.05265332f + s * -0.01172120f)))));
-  // Selections instead of branches: a loop over many points becomes vector instructions.
+  // Conditional expressions instead of branches let the compiler vectorise loops.
   r = ay > ax ? 0.5f * std::numbers::pi_v<float> - r : r;
   r = x < 0.0f ? std::numbers::pi_v<float> - r : r;
   return y < 0.0f ? -r : r;

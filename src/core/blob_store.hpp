@@ -9,18 +9,19 @@
 
 namespace lego_loam_sc {
 
-/// Bytes that are written once and seldom read: the points of all key frames, most of what a drive
-/// leaves behind. The application gives the SLAM one that keeps them in a file (io/blob_file.hpp).
+/// Storage for bytes that are written once and rarely read: the points of all key frames, which
+/// take most of the memory of a run. The application provides one that uses a file
+/// (io/blob_file.hpp).
 class BlobStore {
  public:
   virtual ~BlobStore() = default;
 
   virtual std::uint64_t size() const = 0;  ///< bytes
-  /// Adds bytes at the end.
+  /// Appends bytes.
   virtual void append(std::span<const std::byte> bytes) = 0;
-  /// Fills `bytes` with those from `offset` on, which must have been appended at once.
+  /// Reads from `offset` into `bytes`; they must have been appended in one call.
   virtual void read(std::uint64_t offset, std::span<std::byte> bytes) const = 0;
-  /// Forgets all bytes.
+  /// Removes all bytes.
   virtual void clear() = 0;
 };
 
@@ -34,7 +35,6 @@ class MemoryBlobs : public BlobStore {
   void read(std::uint64_t offset, std::span<std::byte> bytes) const override {
     if (!bytes.empty()) std::memcpy(bytes.data(), bytes_.data() + offset, bytes.size());
   }
-  /// Forgets all bytes.
   void clear() override { bytes_.clear(); }
 
  private:

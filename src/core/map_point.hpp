@@ -6,13 +6,12 @@
 
 namespace lego_loam_sc {
 
-/// A point that a key frame gave to a map or to another cloud.
+/// A point of a map or another cloud, with the key frame that it comes from.
 struct MapPoint {
-  Eigen::Vector3f position;    ///< m; the cloud says in which frame
+  Eigen::Vector3f position;    ///< m, in the frame of the cloud
   float intensity = 0.0f;      ///< in the sensor's own unit
-  std::int32_t key_frame = 0;  ///< its number
+  std::int32_t key_frame = 0;  ///< index
 
-  /// The same in all members.
   bool operator==(const MapPoint&) const = default;
 };
 

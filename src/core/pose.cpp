@@ -34,7 +34,7 @@ Eigen::Matrix3d exp_so3(const Eigen::Vector3d& rotation) {
 }
 
 Eigen::Vector3d log_so3(const Eigen::Matrix3d& rotation) {
-  // The quaternion keeps full accuracy near 0 and near pi, where the trace does not.
+  // The quaternion is accurate near 0 and pi, where the trace is not.
   Eigen::Quaterniond q(rotation);
   if (q.w() < 0.0) q.coeffs() = -q.coeffs();
   const double sine = q.vec().norm();
@@ -65,6 +65,12 @@ Pose perturb(const Pose& pose, const Vector6& delta) {
   result.linear() = exp_so3(delta.tail<3>()) * pose.linear();
   result.translation() = pose.translation() + delta.head<3>();
   return result;
+}
+
+Vector6 perturbation_between(const Pose& from, const Pose& to) {
+  Vector6 delta;
+  delta << to.translation() - from.translation(), log_so3(to.linear() * from.linear().transpose());
+  return delta;
 }
 
 Pose normalized(const Pose& pose) {

@@ -5,15 +5,15 @@
 
 namespace lego_loam_sc {
 
-/// What became of a scan. A bad scan is an outcome, not the end of a run: in the last three cases
-/// the pose is the predicted one, and the scan changes nothing else.
+/// The outcome of a scan. A bad scan does not end the run: in the last three cases the pose is the
+/// prediction and the scan has no other effect.
 enum class Status {
   ok,
-  degenerate,      ///< matched, but at least one direction is held by the prediction alone
-  odometry_only,   ///< the match against the map did not hold, that with the previous scan did
+  degenerate,      ///< matched, but at least one direction comes from the prediction alone
+  odometry_only,   ///< matched the previous scan, but not the map
   too_few_points,  ///< not enough points or features to match
   lost,            ///< matched neither the map nor the previous scan
-  out_of_order,    ///< its stamp is not after the one before; the scan was ignored
+  out_of_order,    ///< its stamp is not later than the previous one; ignored
 };
 
 /// Whether the pose was found, not predicted: by the map or by the previous scan.

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view kBlank = " \t\r\n\v\f";
 
-// Levenshtein's distance, one row at a time.
+// Levenshtein distance, one row at a time.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -28,13 +28,26 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-std::size_t distance_to_name(std::string_view given, std::string_view name) {
-  std::size_t best = edit_distance(given, name);
+std::size_t distance_to_name(std::string_view query, std::string_view name) {
+  std::size_t best = edit_distance(query, name);
   for (std::size_t dot = name.find('.'); dot != name.npos; dot = name.find('.')) {
     name.remove_prefix(dot + 1);
-    best = std::min(best, edit_distance(given, name) + 1);  // the full name wins a tie
+    best = std::min(best, edit_distance(query, name) + 1);  // the full name wins a tie
   }
   return best;
+}
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+// The run of digits at the front of `rest`, without leading zeros.
+std::string_view take_number(std::string_view& rest) {
+  const auto end = std::find_if_not(rest.begin(), rest.end(), is_digit);
+  std::string_view digits = rest.substr(0, static_cast<std::size_t>(end - rest.begin()));
+  rest.remove_prefix(digits.size());
+  digits.remove_prefix(std::min(digits.find_first_not_of('0'), digits.size()));
+  return digits;
 }
 
 }  // namespace
@@ -64,7 +77,7 @@ std::optional<double> parse_double(std::string_view text) {
 }
 
 std::optional<std::int64_t> parse_seconds(std::string_view text) {
-  // A double would hold a stamp of today to 240 ns only.
+  // A double resolves present-day stamps to 240 ns only.
   long double seconds = 0.0L;
   const char* end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, seconds);
@@ -102,6 +115,25 @@ std::string nearest_name(std::string_view name, std::span<const std::string> nam
   return *std::min_element(names.begin(), names.end(), [&](const auto& a, const auto& b) {
     return distance_to_name(name, a) < distance_to_name(name, b);
   });
+}
+
+bool natural_less(std::string_view a, std::string_view b) {
+  std::string_view x = a;
+  std::string_view y = b;
+  while (!x.empty() && !y.empty()) {
+    if (is_digit(x[0]) && is_digit(y[0])) {
+      const std::string_view m = take_number(x);
+      const std::string_view n = take_number(y);
+      if (m.size() != n.size()) return m.size() < n.size();
+      if (m != n) return m < n;
+    } else {
+      if (x[0] != y[0]) return x[0] < y[0];
+      x.remove_prefix(1);
+      y.remove_prefix(1);
+    }
+  }
+  if (x.empty() != y.empty()) return x.empty();
+  return a < b;  // they differ in leading zeros only
 }
 
 std::string join(std::span<const std::string> words) {

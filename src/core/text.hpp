@@ -10,22 +10,22 @@
 
 namespace lego_loam_sc {
 
-// Text in and out that is the same in every locale.
+// Locale-independent parsing and formatting.
 
-/// Takes the next line, without its end (LF or CR LF), off the front of `rest`.
+/// Removes the next line from the front of `rest` and returns it without its end (LF or CR LF).
 std::string_view take_line(std::string_view& rest);
 
-/// Takes the next word between blanks or line ends off the front of `rest`; empty at its end.
+/// Removes the next word (between white space) from the front of `rest`; empty at the end.
 std::string_view take_word(std::string_view& rest);
 
-/// The number that is all of `text`, or nothing. NaN and infinity are numbers.
+/// Parses all of `text` as a number, or nothing. NaN and infinity are numbers.
 std::optional<double> parse_double(std::string_view text);
 
-/// Decimal seconds as nanoseconds, exact for nine decimals in this age; nothing when `text` is no
-/// number or does not fit.
+/// Parses decimal seconds as nanoseconds, exact to nine decimals for present-day stamps; nothing
+/// when `text` is not a number or does not fit.
 std::optional<std::int64_t> parse_seconds(std::string_view text);
 
-/// The whole number that is all of `text`, or nothing when it is none or does not fit.
+/// Parses all of `text` as an integer, or nothing when it is none or does not fit.
 template <class Integer>
 std::optional<Integer> parse_integer(std::string_view text) {
   Integer value{};
@@ -35,7 +35,7 @@ std::optional<Integer> parse_integer(std::string_view text) {
   return value;
 }
 
-/// The shortest form that reads back as the same number.
+/// The shortest text that parses to the same number.
 /// @{
 std::string to_text(double value);
 std::string to_text(int value);
@@ -47,9 +47,12 @@ std::string to_fixed(double value, int decimals);
 /// Nanoseconds as seconds with nine decimals, exact.
 std::string to_seconds(std::int64_t nanoseconds);
 
-/// The name with the least edit distance to `name`; for dotted names the trailing parts alone are
-/// compared too, so that `treshold` finds `loop.scan_context.threshold`. `names` is not empty.
+/// The name with the smallest edit distance to `name`. The trailing parts of dotted names are
+/// compared too: `treshold` finds `loop.scan_context.threshold`. `names` must not be empty.
 std::string nearest_name(std::string_view name, std::span<const std::string> names);
+
+/// Natural order: runs of digits compare as numbers, so that scan_9 precedes scan_10.
+bool natural_less(std::string_view a, std::string_view b);
 
 /// "a, b, c"
 std::string join(std::span<const std::string> words);

@@ -6,7 +6,7 @@
 
 namespace lego_loam_sc {
 
-/// Times are whole nanoseconds; seconds are for formulas and files.
+/// Times are integer nanoseconds; seconds are for formulas and files.
 constexpr double seconds(std::int64_t nanoseconds) {
   return 1e-9 * static_cast<double>(nanoseconds);
 }

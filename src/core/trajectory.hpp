@@ -8,7 +8,7 @@
 
 namespace lego_loam_sc {
 
-/// The pose of a scan, with the scan's own stamp.
+/// The pose of a scan and its stamp.
 struct StampedPose {
   std::int64_t stamp_ns = 0;
   Pose pose = Pose::Identity();
@@ -20,7 +20,7 @@ struct StampedPose {
   }
 };
 
-/// In the order of time.
+/// In ascending order of time.
 using Trajectory = std::vector<StampedPose>;
 
 }  // namespace lego_loam_sc

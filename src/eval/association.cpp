@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t kMaxDifferenceNs = 10'000'000;
 
-// Does not overflow, whatever the stamps.
+// Cannot overflow.
 std::uint64_t gap(std::int64_t a, std::int64_t b) {
   const auto [earlier, later] = std::minmax(a, b);
   return static_cast<std::uint64_t>(later) - static_cast<std::uint64_t>(earlier);
@@ -25,7 +25,7 @@ std::vector<PosePair> pair_by_index(const PoseFile& truth, const PoseFile& estim
   if (count > truth.poses.size() || (count < truth.poses.size() && !both_kitti))
     throw InputError("the estimate has " + std::to_string(count) + " poses and the truth " +
                      std::to_string(truth.poses.size()) +
-                     ", without stamps in both they are paired by index: give files of the same "
+                     "; without stamps in both they are paired by index: give files of the same "
                      "scans, or both in TUM format");
   std::vector<PosePair> pairs(count);
   for (std::size_t i = 0; i < count; ++i) pairs[i] = {truth.poses[i].pose, estimate.poses[i].pose};
@@ -36,10 +36,10 @@ void check_ascending(const Trajectory& trajectory, const std::string& name) {
   for (std::size_t i = 1; i < trajectory.size(); ++i)
     if (trajectory[i].stamp_ns <= trajectory[i - 1].stamp_ns)
       throw InputError("pose " + std::to_string(i + 1) + " of the " + name +
-                       " is not after the one before it: sort the file by stamp");
+                       " is not later than the previous one: sort the file by stamp");
 }
 
-// Of ascending poses, which are not empty.
+// `trajectory` ascends and is not empty.
 const StampedPose& nearest(const Trajectory& trajectory, std::int64_t stamp_ns) {
   const auto after = std::lower_bound(
       trajectory.begin(), trajectory.end(), stamp_ns,
@@ -75,7 +75,7 @@ std::vector<PosePair> associate(const PoseFile& truth, const PoseFile& estimate)
   if (pairs.size() < 2)
     throw InputError("truth and estimate have " + std::to_string(pairs.size()) +
                      " poses in common" + (by_stamp ? " within 0.01 s" : "") +
-                     ", two are needed: check that both are of the same recording");
+                     ", at least two are needed: check that both are of the same recording");
   return pairs;
 }
 

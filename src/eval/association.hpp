@@ -8,16 +8,16 @@
 
 namespace lego_loam_sc {
 
-/// The same moment in two trajectories, each in its own map frame.
+/// The poses of two trajectories at the same time, each in its own map frame.
 struct PosePair {
   Pose truth = Pose::Identity();
   Pose estimate = Pose::Identity();
 };
 
-/// Pairs in the order of time. With stamps, each pose of the shorter trajectory gets the other's
-/// nearest within 0.01 s (of two equally near ones the earlier); without stamps in one of them,
-/// poses are paired by index, and a KITTI estimate may end before its KITTI truth. Throws
-/// InputError when stamps do not ascend, counts do not fit or fewer than two pairs are left.
+/// Pairs in ascending order of time. With stamps, each pose of the shorter trajectory is paired
+/// with the nearest of the other within 0.01 s (the earlier of two equally near ones); otherwise
+/// poses are paired by index, and a KITTI estimate may be shorter than its KITTI truth. Throws
+/// InputError when stamps do not ascend, counts do not match or fewer than two pairs are found.
 std::vector<PosePair> associate(const PoseFile& truth, const PoseFile& estimate);
 
 }  // namespace lego_loam_sc

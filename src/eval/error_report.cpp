@@ -80,17 +80,17 @@ std::string padded_left(const std::string& text, std::size_t width) {
 }  // namespace
 
 Json to_json(const TrajectoryError& error) {
-  return {
-      {"pairs", error.pairs},
-      {"truth_length_m", error.truth_length},
-      {"estimate_length_m", error.estimate_length},
-      {"ate_m", statistics_json(error.ate)},
-      {"ate_unaligned_m", statistics_json(error.ate_unaligned)},
-      {"rpe_frame", relative_json(error.rpe_frame)},
-      {"rpe_metre", error.rpe_metre ? relative_json(*error.rpe_metre) : Json()},
-      {"kitti", error.kitti ? kitti_json(*error.kitti) : Json()},
-      {"end", end_json(error.end)},
-      {"first_to_last", {{"truth_m", error.truth_return}, {"estimate_m", error.estimate_return}}}};
+  return {{"pairs", error.pairs},
+          {"truth_length_m", error.truth_length},
+          {"estimate_length_m", error.estimate_length},
+          {"ate_m", statistics_json(error.ate)},
+          {"ate_unaligned_m", statistics_json(error.ate_unaligned)},
+          {"rpe_frame", relative_json(error.rpe_frame)},
+          {"rpe_metre", error.rpe_metre ? relative_json(*error.rpe_metre) : Json()},
+          {"kitti", error.kitti ? kitti_json(*error.kitti) : Json()},
+          {"end", end_json(error.end)},
+          {"first_to_last",
+           {{"truth_m", error.truth_first_to_last}, {"estimate_m", error.estimate_first_to_last}}}};
 }
 
 std::string error_table(std::span<const NamedError> estimates) {

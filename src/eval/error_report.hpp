@@ -9,8 +9,7 @@
 
 namespace lego_loam_sc {
 
-/// The errors of one estimate; the last part of a name is its unit, and what the path is too short
-/// for is null.
+/// The errors of one estimate. Names end with the unit; errors that need a longer path are null.
 nlohmann::ordered_json to_json(const TrajectoryError& error);
 
 struct NamedError {
@@ -18,7 +17,7 @@ struct NamedError {
   TrajectoryError error;
 };
 
-/// For people: one line for each kind of error, one column for each estimate.
+/// A table for the terminal: one line per kind of error, one column per estimate.
 std::string error_table(std::span<const NamedError> estimates);
 
 }  // namespace lego_loam_sc

@@ -30,7 +30,7 @@ Statistics statistics(std::vector<double> errors) {
   return result;
 }
 
-// Distance travelled up to each pose.
+// Path length up to each pose.
 std::vector<double> path_lengths(std::span<const PosePair> pairs, Pose PosePair::* which) {
   std::vector<double> lengths(pairs.size(), 0.0);
   for (std::size_t i = 1; i < pairs.size(); ++i)
@@ -69,7 +69,7 @@ IndexPairs consecutive(std::size_t count) {
   return motions;
 }
 
-// Each from the end of the one before to the first pose that is at least 1 m down the path.
+// Consecutive segments, each up to the first pose that is at least 1 m down the path.
 IndexPairs metre_by_metre(const std::vector<double>& lengths) {
   IndexPairs motions;
   std::size_t start = 0;
@@ -87,7 +87,7 @@ std::optional<KittiError> kitti_error(std::span<const PosePair> pairs,
   KittiError result;
   for (std::size_t first = 0; first < pairs.size(); first += kStep) {
     for (int length = 100; length <= 800; length += 100) {
-      // As in the benchmark's own programme, a segment ends at the first pose beyond its length.
+      // As in the KITTI devkit, a segment ends at the first pose beyond its length.
       const auto last = std::upper_bound(lengths.begin(), lengths.end(), lengths[first] + length);
       if (last == lengths.end()) break;
       const Pose error =
@@ -150,8 +150,8 @@ TrajectoryError evaluate(std::span<const PosePair> pairs) {
   if (!metres.empty()) result.rpe_metre = relative_error(pairs, metres);
   result.kitti = kitti_error(pairs, truth_lengths);
   result.end = end_error(pairs.front(), pairs.back());
-  result.truth_return = distance(pairs.front().truth, pairs.back().truth);
-  result.estimate_return = distance(pairs.front().estimate, pairs.back().estimate);
+  result.truth_first_to_last = distance(pairs.front().truth, pairs.back().truth);
+  result.estimate_first_to_last = distance(pairs.front().estimate, pairs.back().estimate);
   return result;
 }
 

@@ -32,7 +32,7 @@ struct KittiError {
   std::size_t segments = 0;
 };
 
-/// The last pose when both trajectories start at the same pose.
+/// Error of the last pose with the first poses aligned.
 struct EndError {
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< m, along the axes of the first pose
   double rotation_deg = 0.0;
@@ -40,25 +40,24 @@ struct EndError {
 
 struct TrajectoryError {
   std::size_t pairs = 0;
-  double truth_length = 0.0;     ///< m, through the poses that have a partner
+  double truth_length = 0.0;     ///< m, path length through the paired poses
   double estimate_length = 0.0;  ///< m
-  Statistics ate;                ///< m, positions after the best rigid alignment (no scale)
-  Statistics ate_unaligned;      ///< m, positions as they are
+  Statistics ate;                ///< m, positions after rigid alignment (no scale)
+  Statistics ate_unaligned;      ///< m, positions without alignment
   RelativeError rpe_frame;       ///< from each pose to the next
-  /// Over each stretch of 1 m of the true path, one after the other; nothing when the path is
-  /// shorter.
+  /// Over consecutive segments of 1 m of the true path; nothing when the path is shorter.
   std::optional<RelativeError> rpe_metre;
   std::optional<KittiError> kitti;  ///< nothing when the true path is shorter than 100 m
   EndError end;
-  double truth_return = 0.0;     ///< m between the first and the last pose
-  double estimate_return = 0.0;  ///< m
+  double truth_first_to_last = 0.0;     ///< m between the first and the last pose
+  double estimate_first_to_last = 0.0;  ///< m
 };
 
-/// The rigid motion that brings the estimated positions nearest to the true ones in the sense of
-/// least squares: Umeyama 1991, eq. (40)-(43), scale 1. `T_truth_estimate`, both map frames.
+/// The rigid transform that aligns the estimated to the true positions by least squares: Umeyama
+/// 1991, eq. (40)-(43), scale 1. Returns `T_truth_estimate` between the map frames.
 Pose align(std::span<const PosePair> pairs);
 
-/// All errors of an estimate; at least two pairs in the order of time.
+/// All errors of an estimate; at least two pairs in ascending order of time.
 TrajectoryError evaluate(std::span<const PosePair> pairs);
 
 }  // namespace lego_loam_sc

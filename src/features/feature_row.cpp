@@ -10,8 +10,8 @@
 namespace lego_loam_sc {
 namespace {
 
-// A pair of neighbours whose ranges differ by more than this share on both sides of a point is seen
-// at so flat an angle that the point says little (LOAM, section V-A).
+// A surface is nearly parallel to the beam, and its points are unreliable, when the relative range
+// change on both sides exceeds this (LOAM, section V-A).
 constexpr float kParallelBeam = 0.02f;
 
 void resize(std::size_t size, FeatureRow& row) {
@@ -21,7 +21,7 @@ void resize(std::size_t size, FeatureRow& row) {
   row.label.resize(size);
 }
 
-void take_kept_points(const RangeImage& image, const Segmentation& segmentation, int number,
+void load_kept_points(const RangeImage& image, const Segmentation& segmentation, int number,
                       FeatureRow& row) {
   const std::uint32_t begin = image.row_begin[number];
   const std::uint32_t end = image.row_begin[number + 1];
@@ -37,7 +37,7 @@ void take_kept_points(const RangeImage& image, const Segmentation& segmentation,
   resize(count, row);
 }
 
-// The ground is one surface: a hole in it parts no two things.
+// The ground is one surface, so wider gaps in it separate no objects.
 void find_gaps(const RangeImage& image, const FeatureSettings& settings, FeatureRow& row) {
   const int count = row.size();
   row.gap_before.resize(count);
@@ -46,19 +46,19 @@ void find_gaps(const RangeImage& image, const FeatureSettings& settings, Feature
     const int step = row.column[i] - row.column[before] + (i == 0 ? image.columns : 0);
     const bool ground = row.label[i] == Label::ground && row.label[before] == Label::ground;
     const int widest = ground ? settings.max_ground_gap : settings.max_column_gap;
-    row.gap_before[i] = step > widest * image.usual_step;
+    row.gap_before[i] = step > widest * image.column_step;
   }
 }
 
-// Marks points that are seen at a flat angle: at the ends of the row there is no telling.
-void judge_angles(const RoughnessThreshold& threshold, FeatureRow& row) {
+// Marks points seen at a grazing angle; unknown, and so not marked, at the ends of the row.
+void mark_grazing_points(const RoughnessThreshold& threshold, FeatureRow& row) {
   const int count = row.size();
   row.threshold.resize(count);
   for (int i = 0; i < count; ++i) row.threshold[i] = threshold(row.range[i]);
   row.blocked.assign(count, 0);
   row.oblique.assign(count, 0);
-  // Plain pointers: a byte that is written could be a part of the vectors themselves, for all that
-  // the compiler knows.
+  // Plain pointers: writing a byte through a vector could alias the vector itself, which prevents
+  // vectorisation.
   const float* range = row.range.data();
   const float* c_th = row.threshold.data();
   std::uint8_t* blocked = row.blocked.data();
@@ -68,13 +68,13 @@ void judge_angles(const RoughnessThreshold& threshold, FeatureRow& row) {
     const float after = std::abs(range[i + 1] - range[i]);
     const float share = std::min(before, after) / range[i];
     blocked[i] = share > kParallelBeam;
-    oblique[i] = share > threshold.oblique(c_th[i]);
+    oblique[i] = share > threshold.max_edge_obliqueness(c_th[i]);
   }
 }
 
-// The far side of a range jump may be partly hidden, so its border is no real edge; the near side
-// is one. The row is taken as a line here: its two ends lie behind the vehicle.
-void block_hidden(const RangeImage& image, const FeatureSettings& settings, FeatureRow& row) {
+// The far side of a range jump may be partly occluded, so its border is no real edge; the near side
+// is one. The row is treated as open here, since its ends lie behind the vehicle.
+void block_occluded(const RangeImage& image, const FeatureSettings& settings, FeatureRow& row) {
   const float step = 2.0f * std::numbers::pi_v<float> / static_cast<float>(image.columns);
   const auto occlusion_gap = static_cast<float>(settings.occlusion_gap);
   for (int i = 0; i + 1 < row.size(); ++i) {
@@ -100,13 +100,13 @@ RoughnessThreshold::RoughnessThreshold(const SensorModel& sensor, const FeatureS
       static_cast<float>(settings.noise_factor * sensor.range_noise * std::sqrt(s * s + s) / s);
 }
 
-void FeatureRow::take(const RangeImage& image, const Segmentation& segmentation, int number,
+void FeatureRow::load(const RangeImage& image, const Segmentation& segmentation, int number,
                       const FeatureSettings& settings, const RoughnessThreshold& c_th) {
-  take_kept_points(image, segmentation, number, *this);
+  load_kept_points(image, segmentation, number, *this);
   find_gaps(image, settings, *this);
   roughness = lego_loam_sc::roughness(range, gap_before, settings.neighbours);
-  judge_angles(c_th, *this);
-  block_hidden(image, settings, *this);
+  mark_grazing_points(c_th, *this);
+  block_occluded(image, settings, *this);
   pick.assign(index.size(), Pick::none);
 }
 

@@ -11,7 +11,7 @@
 namespace lego_loam_sc {
 namespace {
 
-// Neighbours of a pick are the same edge or the same spot of a plane.
+// Neighbours of a pick belong to the same edge or the same patch of a plane.
 void suppress(int i, const FeatureSettings& settings, FeatureRow& row) {
   row.used[i] = 1;
   for (const int direction : {-1, 1}) {
@@ -24,8 +24,8 @@ void suppress(int i, const FeatureSettings& settings, FeatureRow& row) {
   }
 }
 
-// Points of a row that may be picked, each as one number that sorts by roughness first (never
-// negative, so that its bits sort as it does), then by position in the row.
+// Candidates of a row, each packed into one number that sorts by roughness, then by position in the
+// row. Roughness is never negative, so its bits sort like its value.
 using Ranked = std::vector<std::uint64_t>;
 
 std::uint64_t smoothest_first(float roughness, int position) {
@@ -38,8 +38,8 @@ std::uint64_t roughest_first(float roughness, int position) {
          static_cast<std::uint32_t>(position);
 }
 
-// Calls visit(position) for the candidates in ascending order until it returns false. Few are
-// wanted of many: a heap yields them one by one.
+// Calls visit(position) for the candidates in ascending order until it returns false. A heap, since
+// few of many are visited.
 template <class Visit>
 void visit_in_order(Ranked& candidates, Visit&& visit) {
   std::make_heap(candidates.begin(), candidates.end(), std::greater<>());
@@ -64,8 +64,8 @@ void pick_edges(Ranked& candidates, const FeatureSettings& settings, FeatureRow&
 }
 
 void pick_planars(Ranked& candidates, const FeatureSettings& settings, FeatureRow& row) {
-  // Each pick takes at most 2 x suppressed_neighbours others out, so this many of the flattest are
-  // enough to make all picks.
+  // Each pick suppresses at most 2 x suppressed_neighbours others, so this many of the flattest
+  // candidates suffice.
   const int wanted = std::max(settings.planars_flat, settings.planars_large);
   int left = wanted * (2 * settings.suppressed_neighbours + 1);
   int flat = 0;
@@ -88,12 +88,11 @@ void pick_planars(Ranked& candidates, const FeatureSettings& settings, FeatureRo
   });
 }
 
-// Whether the row goes `spacing` m or more in `steps` points at i, which has all its neighbours;
-// its steps are as long as the mean among these. The point itself has no say: were the distance to
-// the last pick measured, its noise would decide whether it is picked, and all walls would seem
-// turned in the sense of the scan.
-bool apart(const RangeImage& image, const FeatureSettings& settings, const FeatureRow& row, int i,
-           int steps) {
+// Whether `steps` points along the row at i span at least `planar_spacing`. The step is the mean
+// over the neighbours of i, so that the point's own noise does not bias the selection: with the
+// distance to the last pick, all walls would appear rotated in the direction of the scan.
+bool is_spaced(const RangeImage& image, const FeatureSettings& settings, const FeatureRow& row,
+               int i, int steps) {
   const int n = settings.neighbours;
   const int count = row.size();
   const int before = i - n < 0 ? i - n + count : i - n;
@@ -105,19 +104,20 @@ bool apart(const RangeImage& image, const FeatureSettings& settings, const Featu
   return share * share * squared >= spacing * spacing;
 }
 
-// The large planar set without a count: every smooth point, thinned along the row.
-void spread_planars(const RangeImage& image, const FeatureSettings& settings, FeatureRow& row) {
+// The large planar set without an upper count: all smooth points, subsampled along the row.
+void pick_spaced_planars(const RangeImage& image, const FeatureSettings& settings,
+                         FeatureRow& row) {
   int last = -row.size();
   for (int i = 0; i < row.size(); ++i) {
     const bool flat = row.pick[i] == Pick::planar_flat;
     if (!flat && (row.pick[i] != Pick::none || !row.smooth[i])) continue;
-    if (!flat && !apart(image, settings, row, i, i - last)) continue;
+    if (!flat && !is_spaced(image, settings, row, i, i - last)) continue;
     if (!flat) row.pick[i] = Pick::planar_large;
     last = i;
   }
 }
 
-// `edges` and `planars` are memory for the candidates.
+// `edges` and `planars` are buffers for the candidates.
 void select(const RangeImage& image, const FeatureSettings& settings, FeatureRow& row,
             Ranked& edges, Ranked& planars) {
   row.smooth.assign(row.size(), 0);
@@ -141,11 +141,11 @@ void select(const RangeImage& image, const FeatureSettings& settings, FeatureRow
     pick_edges(edges, settings, row);
     pick_planars(planars, settings, row);
   }
-  if (settings.planars_large == 0) spread_planars(image, settings, row);
+  if (settings.planars_large == 0) pick_spaced_planars(image, settings, row);
 }
 
 FeaturePoint feature_point(const RangeImage& image, int row, std::uint32_t k, Label label) {
-  return {image.points[k], image.age[k], image.intensity[k], static_cast<std::uint16_t>(row),
+  return {image.points[k], image.time[k], image.intensity[k], static_cast<std::uint16_t>(row),
           image.column[k], label};
 }
 
@@ -164,7 +164,7 @@ void append(const RangeImage& image, int row_number, const FeatureRow& row, Feat
   }
 }
 
-// `smooth`: one for each point of the image.
+// Fills `smooth` with one flag per point of the image.
 Features extract(const RangeImage& image, const Segmentation& segmentation,
                  const SensorModel& sensor, const FeatureSettings& settings,
                  std::vector<std::uint8_t>& smooth) {
@@ -174,7 +174,7 @@ Features extract(const RangeImage& image, const Segmentation& segmentation,
   FeatureRow row;
   Ranked edges, planars;
   for (int number = 0; number < image.rows; ++number) {
-    row.take(image, segmentation, number, settings, threshold);
+    row.load(image, segmentation, number, settings, threshold);
     select(image, settings, row, edges, planars);
     append(image, number, row, features);
     for (int i = 0; i < row.size(); ++i) smooth[row.index[i]] = row.smooth[i];
@@ -182,8 +182,8 @@ Features extract(const RangeImage& image, const Segmentation& segmentation,
   return features;
 }
 
-// All that stands on the ground but smooth surfaces, whose points tell nothing along them: the
-// pattern in which they were seen travels with the sensor.
+// All points above the ground except smooth surfaces: along a surface its points are arbitrary, and
+// their pattern moves with the sensor.
 std::vector<FeaturePoint> scattered_points(const RangeImage& image,
                                            const Segmentation& segmentation,
                                            const std::vector<std::uint8_t>& smooth) {

@@ -13,10 +13,10 @@
 
 namespace lego_loam_sc {
 
-/// A point of a feature set.
+/// A feature: a point of an edge, a plane or a scattered object.
 struct FeaturePoint {
   Eigen::Vector3f position;  ///< LiDAR frame at the time of the point, m
-  float age = 0.0f;          ///< s after the scan's reference time
+  float time = 0.0f;         ///< s after the scan's reference time
   float intensity = 0.0f;    ///< in the sensor's own unit
   std::uint16_t row = 0;
   std::uint16_t column = 0;
@@ -25,28 +25,27 @@ struct FeaturePoint {
   /// See core/state_archive.hpp.
   template <class Archive>
   void state(Archive& archive) {
-    archive(position, age, intensity, row, column, label);
+    archive(position, time, intensity, row, column, label);
   }
 };
 
 /// The feature sets of paper 2.3 (2). The small sets hold the sharpest edges and the flattest
-/// points, F_e and F_p; the large sets, written with a double-struck F in the paper, contain them.
-/// Trees in a field are too narrow for roughness and too small for clusters: where there are few
-/// edges, all points but the ground's are kept as they are.
-/// All are in ascending order of row and column.
+/// points, F_e and F_p; the large sets, with a double-struck F in the paper, contain them. Trees in
+/// a field are too narrow for edges and too small for clusters: where edges are few, `scattered`
+/// holds all rough points above the ground. All sets are in ascending order of row and column.
 struct Features {
   std::vector<FeaturePoint> edges_sharp;    ///< F_e
   std::vector<FeaturePoint> planars_flat;   ///< F_p
   std::vector<FeaturePoint> edges_large;    ///< large F_e
   std::vector<FeaturePoint> planars_large;  ///< large F_p
-  std::vector<FeaturePoint> scattered;      ///< what stands on the ground, where edges are scarce
+  std::vector<FeaturePoint> scattered;      ///< rough points above the ground where edges are few
 };
 
-/// The sets that maps and key frames are made of.
+/// The sets that maps and key frames consist of.
 inline constexpr std::array kMapSets = {&Features::planars_large, &Features::edges_large,
                                         &Features::scattered};
 
-/// Selects features evenly: from each row and each of its sub-images, by roughness.
+/// Selects features by roughness, evenly over the rows and their sub-images.
 Features extract_features(const RangeImage& image, const Segmentation& segmentation,
                           const SensorModel& sensor, const FeatureSettings& settings);
 

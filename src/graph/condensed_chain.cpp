@@ -16,12 +16,12 @@ void CondensedChain::divide(const std::vector<int>& ends, const std::vector<Pose
   std::vector<Section> divided(ends.size() - 1);
   auto old = sections_.begin();
   for (std::size_t s = 0; s < divided.size(); ++s) {
-    Stretch& stretch = divided[s].stretch;
-    stretch.from = ends[s];
-    stretch.to = ends[s + 1];
-    while (old != sections_.end() && old->stretch.from < stretch.from) ++old;
-    if (old != sections_.end() && old->stretch.from == stretch.from &&
-        old->stretch.to == stretch.to)
+    ChainSegment& segment = divided[s].segment;
+    segment.from = ends[s];
+    segment.to = ends[s + 1];
+    while (old != sections_.end() && old->segment.from < segment.from) ++old;
+    if (old != sections_.end() && old->segment.from == segment.from &&
+        old->segment.to == segment.to)
       divided[s] = std::move(*old);
   }
   sections_ = std::move(divided);
@@ -30,26 +30,26 @@ void CondensedChain::divide(const std::vector<int>& ends, const std::vector<Pose
 void CondensedChain::condense_moved(const std::vector<PoseEdge>& odometry) {
   for (Section& section : sections_) {
     if (section.factor && section.moved < precision_) continue;
-    Stretch& stretch = section.stretch;
-    for (int i = stretch.from; i < stretch.to; ++i)
+    ChainSegment& segment = section.segment;
+    for (int i = segment.from; i < segment.to; ++i)
       links_[i] = linearised(odometry[i], relatives_[i]);
-    stretch = condense(links_, stretch.from, stretch.to);
+    segment = condense(links_, segment.from, segment.to);
     section.moved = 0.0;
     section.expanded_to.reset();
     section.factor = boost::make_shared<RelativePoseFactor>(
-        stretch.from, stretch.to, stretch.relative, stretch.offset,
-        gtsam::noiseModel::Gaussian::Covariance(stretch.spread));
+        segment.from, segment.to, segment.relative, segment.offset,
+        gtsam::noiseModel::Gaussian::Covariance(segment.covariance));
   }
 }
 
 void CondensedChain::expand(const gtsam::Values& ends) {
   for (Section& section : sections_) {
-    const Stretch& stretch = section.stretch;
+    const ChainSegment& segment = section.segment;
     const gtsam::Pose3 T_from_to =
-        ends.at<gtsam::Pose3>(stretch.from).between(ends.at<gtsam::Pose3>(stretch.to));
+        ends.at<gtsam::Pose3>(segment.from).between(ends.at<gtsam::Pose3>(segment.to));
     if (section.expanded_to && section.expanded_to->equals(T_from_to, 0.01 * precision_)) continue;
     section.expanded_to = T_from_to;
-    section.moved = lego_loam_sc::expand(stretch, T_from_to, links_, relatives_);
+    section.moved = lego_loam_sc::expand(segment, T_from_to, links_, relatives_);
   }
 }
 

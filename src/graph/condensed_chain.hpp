@@ -7,27 +7,27 @@
 #include <optional>
 #include <vector>
 
+#include "graph/chain_segment.hpp"
 #include "graph/pose_graph.hpp"
-#include "graph/stretch.hpp"
 
 namespace lego_loam_sc {
 
-/// The odometry from key frame 0 to the last loop end, with one factor for each stretch between
-/// two neighbouring ends. Private to the pose graph.
+/// The odometry from key frame 0 to the last loop end, with one factor per segment between
+/// neighbouring loop ends. Private to the pose graph.
 class CondensedChain {
  public:
-  /// m and rad that the links of a stretch may move in all before it is linearised anew: the
-  /// threshold of iSAM2's fluid relinearisation, carried over to what iSAM2 does not see.
+  /// `precision` (m and rad): a segment is relinearised when its links have moved by this in total,
+  /// as iSAM2 relinearises its own variables.
   explicit CondensedChain(double precision) : precision_(precision) {}
 
-  /// `ends` ascend from key frame 0. Stretches between the same ends as before stay as they are.
+  /// Divides the chain at `ends`, ascending from key frame 0. Existing segments between the same
+  /// ends are kept.
   void divide(const std::vector<int>& ends, const std::vector<PoseEdge>& odometry);
 
-  /// Linearises new stretches, and those that have moved, where they are now; each of them gets
-  /// a new factor.
+  /// Linearises new segments, and those that have moved, at their present poses with a new factor.
   void condense_moved(const std::vector<PoseEdge>& odometry);
 
-  /// Fits the key frames of every stretch between the poses of its ends.
+  /// Distributes the poses of the segment ends over the key frames between them.
   void expand(const gtsam::Values& ends);
 
   void add_factors(gtsam::NonlinearFactorGraph& graph) const;
@@ -37,15 +37,15 @@ class CondensedChain {
 
  private:
   struct Section {
-    Stretch stretch;
-    gtsam::NonlinearFactor::shared_ptr factor;  // none before the stretch is condensed
-    double moved = 0.0;                         // m and rad, of all links since then
-    std::optional<gtsam::Pose3> expanded_to;    // pose of its end in its beginning, since then
+    ChainSegment segment;
+    gtsam::NonlinearFactor::shared_ptr factor;  // null until the segment is condensed
+    double moved = 0.0;                         // m and rad, sum over all links since then
+    std::optional<gtsam::Pose3> expanded_to;    // relative pose of its ends at the last expansion
   };
 
   double precision_;
   std::vector<Section> sections_;
-  std::vector<Link> links_;  // one per odometry edge, where its stretch was condensed
+  std::vector<Link> links_;  // one per odometry edge, as last linearised
   std::vector<gtsam::Pose3> relatives_;
 };
 

@@ -27,17 +27,11 @@ Matrix6 loop_covariance(const Matrix6& covariance, const Eigen::Matrix3d& R,
 }
 
 Matrix6 odometry_covariance(const Matrix6& covariance, const Eigen::Matrix3d& R,
-                            const Localizability& l, const GraphSettings& settings) {
+                            const Localizability& localizability, const GraphSettings& settings) {
   const double t = settings.degenerate_inflation * settings.odometry_sigma;
   const double r = settings.degenerate_inflation * radians(settings.odometry_sigma_deg);
-  Matrix6 inflated = covariance;
-  for (int i = 0; i < l.degenerate_translations; ++i)
-    inflated.topLeftCorner<3, 3>() +=
-        t * t * l.translation_axes.col(i) * l.translation_axes.col(i).transpose();
-  for (int i = 0; i < l.degenerate_rotations; ++i)
-    inflated.bottomRightCorner<3, 3>() +=
-        r * r * l.rotation_axes.col(i) * l.rotation_axes.col(i).transpose();
-  Matrix6 result = turned(inflated, R);
+  const Matrix6 inflation = degenerate_projection(localizability, t * t, r * r);
+  Matrix6 result = turned(covariance + inflation, R);
   add_floor(settings.odometry_sigma, settings.odometry_sigma_deg, result);
   return result;
 }

@@ -10,18 +10,17 @@
 namespace lego_loam_sc {
 namespace {
 
-// The cost of an optimum flickers by rounding, and by moves too small to linearise anew.
-constexpr double kFlicker = 1e-6;
+// Tolerance for a cost increase by round-off and by moves too small to relinearise.
+constexpr double kCostTolerance = 1e-6;
 
 gtsam::ISAM2Params incremental_params(double precision) {
   gtsam::ISAM2Params params;
-  // Far smaller changes are carried down to the leaves: a stretch multiplies rotation by its
-  // length.
+  // Propagate far smaller changes down to the leaves: a segment multiplies rotations by its length.
   params.optimizationParams = gtsam::ISAM2GaussNewtonParams(0.01 * precision);
   params.relinearizeThreshold = precision;
   params.relinearizeSkip = 1;
   params.evaluateNonlinearError = true;
-  params.findUnusedFactorSlots = true;  // else each factor ever removed would leave an empty one
+  params.findUnusedFactorSlots = true;  // reuses the slots of removed factors
   return params;
 }
 
@@ -45,27 +44,27 @@ gtsam::Values IncrementalSolver::step(const gtsam::NonlinearFactorGraph& graph,
   return gtsam::LevenbergMarquardtOptimizer(graph, estimate).optimize();
 }
 
-// False when the tree has no step that can be trusted.
+// Returns false when the step fails or increases the cost.
 bool IncrementalSolver::update(const gtsam::NonlinearFactorGraph& graph,
                                const gtsam::Values& estimate) {
   const gtsam::NonlinearFactorGraph& present = tree_.getFactorsUnsafe();
-  const FactorSet had = set_of(present);
+  const FactorSet existing = set_of(present);
   const FactorSet wanted = set_of(graph);
   gtsam::NonlinearFactorGraph added;
   for (const auto& factor : graph)
-    if (!had.contains(factor.get())) added.push_back(factor);
+    if (!existing.contains(factor.get())) added.push_back(factor);
   gtsam::FactorIndices removed;
   for (std::size_t i = 0; i < present.size(); ++i)
     if (present[i] && !wanted.contains(present[i].get())) removed.push_back(i);
-  gtsam::Values started;
+  gtsam::Values initial;
   for (const gtsam::Key key : added.keys())
-    if (!tree_.valueExists(key)) started.insert(key, estimate.at(key));
+    if (!tree_.valueExists(key)) initial.insert(key, estimate.at(key));
   try {
-    const gtsam::ISAM2Result result = tree_.update(added, started, removed);
-    return *result.errorAfter <= *result.errorBefore * (1.0 + kFlicker) + kFlicker;
+    const gtsam::ISAM2Result result = tree_.update(added, initial, removed);
+    return *result.errorAfter <= *result.errorBefore * (1.0 + kCostTolerance) + kCostTolerance;
   } catch (const gtsam::IndeterminantLinearSystemException&) {
-    // Sigmas of tight and loose directions too far apart for Cholesky, which squares them. QR
-    // takes twice the time, so not before this.
+    // Cholesky squares the sigmas of stiff and loose directions, which can differ too much. QR
+    // takes twice the time, so it is used only from here on.
     params_.factorization = gtsam::ISAM2Params::QR;
     return false;
   }

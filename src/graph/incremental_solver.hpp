@@ -8,18 +8,18 @@
 namespace lego_loam_sc {
 
 /// The condensed pose graph in iSAM2 (Kaess et al., "iSAM2: Incremental smoothing and mapping
-/// using the Bayes tree", IJRR 2012), private to the pose graph. The tree is kept from loop to
-/// loop: each step eliminates anew what changed factors and moved variables touch, and no more.
+/// using the Bayes tree", IJRR 2012), private to the pose graph. The tree is kept between loops:
+/// each step eliminates only what changed factors and moved variables affect.
 class IncrementalSolver {
  public:
-  /// m and rad that a variable may move before its factors are linearised anew.
+  /// `precision` (m and rad): a variable that moved by more is relinearised.
   explicit IncrementalSolver(double precision);
 
   /// One Gauss-Newton step towards the optimum of `graph`; returns all of its variables. Factors
-  /// are told apart by their pointers: those that the tree lacks are added, those that `graph`
-  /// lacks are removed. `estimate` holds every variable as the last step left it, new ones where
-  /// they are to start. When the step fails or leads uphill, Levenberg-Marquardt solves the whole
-  /// graph instead, and the next step builds the tree anew from there.
+  /// are identified by their pointers: factors missing from the tree are added, factors missing
+  /// from `graph` removed. `estimate` holds all variables after the last step and the initial
+  /// values of new ones. When the step fails or increases the cost, Levenberg-Marquardt solves the
+  /// whole graph instead, and the next step rebuilds the tree.
   gtsam::Values step(const gtsam::NonlinearFactorGraph& graph, const gtsam::Values& estimate);
 
  private:

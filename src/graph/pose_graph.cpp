@@ -11,10 +11,10 @@
 #include <string>
 #include <utility>
 
+#include "graph/chain_segment.hpp"
 #include "graph/condensed_chain.hpp"
 #include "graph/incremental_solver.hpp"
 #include "graph/relative_pose_factor.hpp"
-#include "graph/stretch.hpp"
 
 namespace lego_loam_sc {
 namespace {
@@ -22,12 +22,13 @@ namespace {
 using gtsam::Pose3;
 namespace noise = gtsam::noiseModel;
 
-constexpr double kPriorSigma = 1e-3;  // holds the gauge; any value gives the same poses
-// A few steps do, unless a loop pulls about as hard as its kernel allows: its weight then settles
-// slowly.
+constexpr double kPriorSigma = 1e-3;  // fixes the gauge; any value yields the same poses
+// A few iterations suffice, unless a residual is near the threshold of the kernel: the weight of
+// such a loop converges slowly.
 constexpr int kMaxIterations = 100;
-// After a change of so many precisions the next is some hundred times smaller.
-constexpr double kLastChange = 10.0;
+// An iteration that changes poses by less than this many precisions is the last: the next would be
+// some hundred times smaller.
+constexpr double kConvergence = 10.0;
 
 Pose from_gtsam(const Pose3& pose) {
   return Pose(pose.matrix());
@@ -58,12 +59,12 @@ class PoseGraph::Solver {
   std::vector<PoseEdge> loops;
 
  private:
-  double kernel_of(const PoseEdge& loop) const;
+  double kernel_width(const PoseEdge& loop) const;
   std::vector<int> loop_ends() const;
-  double place_key_frames(const gtsam::Values& ends);
+  double update_poses(const gtsam::Values& ends);
 
   GraphSettings settings_;
-  bool changed_ = false;  // loops have come or gone since the last optimisation
+  bool changed_ = false;  // loops were added or removed since the last optimisation
   gtsam::NonlinearFactor::shared_ptr gauge_;
   std::vector<gtsam::NonlinearFactor::shared_ptr> loop_factors_;
   CondensedChain chain_;
@@ -79,7 +80,7 @@ void PoseGraph::Solver::add_first(const Pose& T_map_key) {
 void PoseGraph::Solver::add_loop(const PoseEdge& loop) {
   gtsam::SharedNoiseModel model = noise::Gaussian::Covariance(swap_blocks(loop.covariance));
   if (settings_.loop_kernel > 0.0)
-    model = noise::Robust::Create(noise::mEstimator::Huber::Create(kernel_of(loop)), model);
+    model = noise::Robust::Create(noise::mEstimator::Huber::Create(kernel_width(loop)), model);
   loops.push_back(loop);
   loop_factors_.emplace_back(boost::make_shared<RelativePoseFactor>(
       loop.from, loop.to, to_gtsam(loop.T_from_to), Vector6::Zero(), model));
@@ -107,26 +108,26 @@ void PoseGraph::Solver::optimise() {
     for (const int end : ends) estimate.insert(end, to_gtsam(poses[end]));
     estimate = incremental_.step(graph, estimate);
     chain_.expand(estimate);
-    if (place_key_frames(estimate) < kLastChange * settings_.precision) break;
+    if (update_poses(estimate) < kConvergence * settings_.precision) break;
   }
 }
 
-// A loop must not be outvoted by the drift that it repairs, only by other loops. So the setting is
-// raised by the sigmas that odometry leaves on the closed loop, | S_loop S_odometry^-1 d | with d
-// the drift; no further than threefold, so that a few true loops outvote a wrong one.
-double PoseGraph::Solver::kernel_of(const PoseEdge& loop) const {
+// Only other loops may outweigh a loop, not the drift that it corrects. So the setting is raised by
+// the residual of the loop in sigmas after closing, | S_loop S_odometry^-1 d | with the drift d, up
+// to three times its value, so that a few true loops outweigh a wrong one.
+double PoseGraph::Solver::kernel_width(const PoseEdge& loop) const {
   const auto [first, last] = std::minmax(loop.from, loop.to);
   std::vector<Link> links;
-  for (int i = first; i < last; ++i) links.push_back(unmoved(odometry[i]));
-  const Stretch chain = condense(links, 0, last - first);
+  for (int i = first; i < last; ++i) links.push_back(linearised_at_measurement(odometry[i]));
+  const ChainSegment chain = condense(links, 0, last - first);
   const Pose3 measured = to_gtsam(loop.from < loop.to ? loop.T_from_to : loop.T_from_to.inverse());
   const Vector6 drift = Pose3::Logmap(chain.relative.inverse() * measured);
-  const Vector6 pull = chain.spread.ldlt().solve(drift);
-  const double sigmas = std::sqrt(pull.dot(swap_blocks(loop.covariance) * pull));
+  const Vector6 force = chain.covariance.ldlt().solve(drift);
+  const double sigmas = std::sqrt(force.dot(swap_blocks(loop.covariance) * force));
   return settings_.loop_kernel + std::min(sigmas, 2.0 * settings_.loop_kernel);
 }
 
-// In ascending order; the first key frame is always one of them.
+// In ascending order, key frame 0 included.
 std::vector<int> PoseGraph::Solver::loop_ends() const {
   std::vector<int> ends = {0};
   for (const PoseEdge& loop : loops) ends.insert(ends.end(), {loop.from, loop.to});
@@ -135,9 +136,9 @@ std::vector<int> PoseGraph::Solver::loop_ends() const {
   return ends;
 }
 
-// Sets all poses from the solved loop ends and the links between them, then the odometry after
-// the last; returns the largest change.
-double PoseGraph::Solver::place_key_frames(const gtsam::Values& ends) {
+// Sets all poses from the solved loop ends and the links between them, and from odometry after the
+// last end. Returns the largest change.
+double PoseGraph::Solver::update_poses(const gtsam::Values& ends) {
   double largest_change = 0.0;
   Pose3 T_map_key = to_gtsam(poses[0]);
   const std::vector<Pose3>& relatives = chain_.relatives();
@@ -147,9 +148,9 @@ double PoseGraph::Solver::place_key_frames(const gtsam::Values& ends) {
     } else {
       T_map_key = T_map_key * to_gtsam(odometry[i - 1].T_from_to);
     }
-    const Pose placed = from_gtsam(T_map_key);
-    largest_change = std::max(largest_change, (placed.matrix() - poses[i].matrix()).norm());
-    poses[i] = placed;
+    const Pose updated = from_gtsam(T_map_key);
+    largest_change = std::max(largest_change, (updated.matrix() - poses[i].matrix()).norm());
+    poses[i] = updated;
   }
   return largest_change;
 }
@@ -160,7 +161,7 @@ PoseGraph& PoseGraph::operator=(PoseGraph&&) noexcept = default;
 PoseGraph::~PoseGraph() = default;
 
 void PoseGraph::add_first(const Pose& T_map_key) {
-  if (!solver_->poses.empty()) throw std::invalid_argument("the first key frame is there already");
+  if (!solver_->poses.empty()) throw std::invalid_argument("key frame 0 was added before");
   solver_->add_first(T_map_key);
   calls_.push_back({Call::Kind::add_first, {.T_from_to = T_map_key}});
 }

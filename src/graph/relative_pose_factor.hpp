@@ -8,9 +8,8 @@
 
 namespace lego_loam_sc {
 
-/// || Log(expected^-1 T_a^-1 T_b) + offset ||, private to the pose graph. GTSAM's own
-/// BetweenFactor leaves the derivative of the logarithm out, which shifts the optimum where a
-/// residual is large.
+/// || Log(expected^-1 T_a^-1 T_b) + offset ||, private to the pose graph. GTSAM's BetweenFactor
+/// omits the derivative of the logarithm, which shifts the optimum for large residuals.
 class RelativePoseFactor : public gtsam::NoiseModelFactor2<gtsam::Pose3, gtsam::Pose3> {
  public:
   RelativePoseFactor(int a, int b, const gtsam::Pose3& expected, const Vector6& offset,

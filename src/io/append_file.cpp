@@ -28,12 +28,12 @@ void AppendFile::append(std::string_view lines) {
     struct stat status;
     if (::fstat(::fileno(file_), &status) == 0 && status.st_nlink == 0)
       throw InputError(path_.string() +
-                       ": was removed while it was written; begin anew in another folder");
+                       ": was removed while it was written; start again in another folder");
     return;
   }
   const int error = errno;
-  std::fclose(std::exchange(file_, nullptr));  // tries once more, before the cut
-  // A full disk may have taken a part of a line.
+  std::fclose(std::exchange(file_, nullptr));  // flushes once more, before the truncation
+  // A full disk may have accepted a part of a line.
   std::error_code gone;
   std::filesystem::resize_file(path_, size_, gone);
   fail(error);
@@ -41,7 +41,7 @@ void AppendFile::append(std::string_view lines) {
 
 void AppendFile::cut(std::size_t size) {
   if (size > size_)
-    throw InputError(path_.string() + ": has lost its end; begin the run anew in another folder");
+    throw InputError(path_.string() + ": has lost its end; start the run again in another folder");
   std::error_code error;
   std::filesystem::resize_file(path_, size, error);
   if (error) fail(error.value());
@@ -50,7 +50,7 @@ void AppendFile::cut(std::size_t size) {
 
 void AppendFile::fail(int error) const {
   throw InputError(path_.string() + ": cannot be written (" + std::strerror(error) +
-                   "); make room or choose another folder with -o");
+                   "); free space or choose another folder with -o");
 }
 
 }  // namespace lego_loam_sc

@@ -7,20 +7,21 @@
 
 namespace lego_loam_sc {
 
-/// A file that grows line by line and is whole after each: what a killed run leaves behind can be
-/// read. Throws InputError when the file cannot be made or written.
+/// A file that grows line by line and is valid after each line, so that the output of a killed run
+/// can be read. Throws InputError when the file cannot be created or written.
 class AppendFile {
  public:
-  /// Goes on with a file that is there.
+  /// Appends to an existing file.
   explicit AppendFile(std::filesystem::path path);
   ~AppendFile();
   AppendFile(const AppendFile&) = delete;
   AppendFile& operator=(const AppendFile&) = delete;
 
-  /// `lines` end with a line feed. When this fails, the file is cut to the lines before and closed.
+  /// `lines` end with a line feed. On failure the file is truncated to the previous lines and
+  /// closed.
   void append(std::string_view lines);
 
-  /// Cuts the file to its first `size` bytes.
+  /// Truncates the file to its first `size` bytes.
   void cut(std::size_t size);
 
   std::size_t size() const { return size_; }

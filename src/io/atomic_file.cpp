@@ -21,7 +21,7 @@ AtomicFile::~AtomicFile() {
 }
 
 void AtomicFile::write(std::string_view bytes) {
-  if (bytes.empty()) return;  // of no vector: a null pointer, which fwrite may not get
+  if (bytes.empty()) return;  // data() may be null, which fwrite does not accept
   if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail(errno);
 }
 
@@ -32,7 +32,7 @@ void AtomicFile::overwrite_beginning(std::string_view bytes) {
 }
 
 void AtomicFile::commit() {
-  // A full disk may show only when the last buffer goes out, in fclose.
+  // A full disk may be reported only when fclose flushes the last buffer.
   if (std::fclose(std::exchange(file_, nullptr)) != 0 ||
       std::rename(temporary_.c_str(), path_.c_str()) != 0) {
     const int error = errno;

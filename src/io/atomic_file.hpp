@@ -7,22 +7,22 @@
 
 namespace lego_loam_sc {
 
-/// A file that is there as a whole or not at all: written beside its place under a temporary name
-/// and moved into place by `commit`. Without `commit` nothing is left. Every step throws
-/// InputError when the disk is full or the folder cannot be written.
+/// A file that is written completely or not at all: under a temporary name in the same folder,
+/// renamed by `commit`. Without `commit` nothing is left. Every step throws InputError when the
+/// disk is full or the folder cannot be written.
 class AtomicFile {
  public:
-  /// The file at `path` stays as it is until `commit`.
+  /// An existing file at `path` is unchanged until `commit`.
   explicit AtomicFile(std::filesystem::path path);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  /// Adds bytes at the end.
+  /// Appends bytes.
   void write(std::string_view bytes);
-  /// Puts bytes over those that were written first.
+  /// Overwrites the first bytes.
   void overwrite_beginning(std::string_view bytes);
-  /// Moves the file into its place.
+  /// Renames the file to its final path.
   void commit();
 
  private:
@@ -34,7 +34,7 @@ class AtomicFile {
   std::FILE* file_ = nullptr;
 };
 
-/// `bytes` as the whole content of the file at `path`.
+/// Writes `bytes` as the content of the file at `path`, atomically.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace lego_loam_sc

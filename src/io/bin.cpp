@@ -18,8 +18,8 @@ Scan parse_bin(std::string_view bytes, const std::string& file) {
   constexpr std::size_t kPointBytes = 4 * sizeof(float);
   if (bytes.size() % kPointBytes != 0)
     throw InputError(file + " has " + std::to_string(bytes.size()) +
-                     " bytes, which is no multiple of 16 (float32 x y z intensity); it is cut off "
-                     "or no KITTI scan");
+                     " bytes, which is not a multiple of 16 (float32 x y z intensity); it is "
+                     "truncated or not a KITTI scan");
   Scan scan;
   const std::size_t count = bytes.size() / kPointBytes;
   scan.points.resize(count);

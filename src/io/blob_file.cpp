@@ -13,15 +13,15 @@
 namespace lego_loam_sc {
 namespace {
 
-// Calls step(done), which reads or writes what is left after `done` bytes and returns how much it
-// did, until all is done. Returns 0 or an error number.
+// Calls step(done), which reads or writes the bytes after `done` and returns their number, until
+// `size` bytes are done. Returns 0 or an error number.
 template <class Step>
 int repeat(std::size_t size, Step&& step) {
   for (std::size_t done = 0; done < size;) {
     const ssize_t now = step(done);
     if (now < 0 && errno == EINTR) continue;
     if (now < 0) return errno;
-    if (now == 0) return EIO;  // the file is shorter than it was
+    if (now == 0) return EIO;  // the file was truncated
     done += static_cast<std::size_t>(now);
   }
   return 0;
@@ -53,7 +53,7 @@ void BlobFile::append(std::span<const std::byte> bytes) {
 
 void BlobFile::read(std::uint64_t offset, std::span<std::byte> bytes) const {
   if (bytes.empty()) return;
-  if (offset >= in_file_) {  // what was appended at once is in one place
+  if (offset >= in_file_) {  // one call's bytes are in one place
     std::memcpy(bytes.data(), overflow_.data() + (offset - in_file_), bytes.size());
     return;
   }
@@ -72,7 +72,7 @@ void BlobFile::clear() {
 
 void BlobFile::fail(const char* what, int error) const {
   throw InputError(path_.string() + ": cannot be " + what + " (" + std::strerror(error) +
-                   "); make room or choose another folder with -o");
+                   "); free space or choose another folder with -o");
 }
 
 }  // namespace lego_loam_sc

@@ -7,11 +7,11 @@
 
 namespace lego_loam_sc {
 
-/// Keeps the bytes in a file, which is removed in the end; what the disk has no room for stays in
-/// memory. Throws InputError when the file cannot be made or read.
+/// Keeps the bytes in a file that the destructor removes; bytes that do not fit on the disk stay in
+/// memory. Throws InputError when the file cannot be created or read.
 class BlobFile : public BlobStore {
  public:
-  /// An existing file is emptied.
+  /// Truncates an existing file.
   explicit BlobFile(std::filesystem::path path);
   ~BlobFile() override;
   BlobFile(const BlobFile&) = delete;

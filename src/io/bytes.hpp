@@ -8,9 +8,9 @@
 
 namespace lego_loam_sc {
 
-static_assert(std::endian::native == std::endian::little, "files are written as memory has them");
+static_assert(std::endian::native == std::endian::little, "files are written in memory byte order");
 
-/// The value that lies at `bytes`, which need not be aligned.
+/// The value at `bytes`, which need not be aligned.
 /// @{
 template <class T>
 T load(const char* bytes) {
@@ -27,7 +27,7 @@ T load_big_endian(const char* bytes) {
 }
 /// @}
 
-/// Adds the bytes of `value` at the end.
+/// Appends the bytes of `value`.
 template <class T>
 void append(std::string& bytes, const T& value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof(T));

@@ -9,10 +9,10 @@
 namespace lego_loam_sc {
 namespace {
 
-static_assert(sizeof(MapPoint) == 20, "points are written as they lie");
+static_assert(sizeof(MapPoint) == 20, "points are written as in memory");
 
-std::string ply_header(std::string_view filling, std::size_t count, std::string_view properties) {
-  return "ply\nformat binary_little_endian 1.0\n" + std::string(filling) + "element vertex " +
+std::string ply_header(std::string_view padding, std::size_t count, std::string_view properties) {
+  return "ply\nformat binary_little_endian 1.0\n" + std::string(padding) + "element vertex " +
          std::to_string(count) + "\n" + std::string(properties) + "end_header\n";
 }
 
@@ -20,19 +20,19 @@ constexpr std::string_view kMapProperties =
     "property float x\nproperty float y\nproperty float z\nproperty float intensity\n"
     "property int key_frame\n";
 
-std::string pcd_header(std::string_view filling, std::size_t points) {
+std::string pcd_header(std::string_view padding, std::size_t points) {
   const std::string count = std::to_string(points);
-  return "# .PCD v0.7 - Point Cloud Data file format\n" + std::string(filling) +
+  return "# .PCD v0.7 - Point Cloud Data file format\n" + std::string(padding) +
          "VERSION 0.7\nFIELDS x y z intensity key_frame\nSIZE 4 4 4 4 4\nTYPE F F F F I\n"
          "COUNT 1 1 1 1 1\nWIDTH " +
          count + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + count + "\nDATA binary\n";
 }
 
-// A header of the same length for any count, by a comment of spaces.
+// A header of the same length for any count, padded by a comment.
 std::string header(CloudFormat format, std::size_t count) {
   const bool ply = format == CloudFormat::ply;
-  const auto with = [&](const std::string& filling, std::size_t points) {
-    return ply ? ply_header(filling, points, kMapProperties) : pcd_header(filling, points);
+  const auto with = [&](const std::string& padding, std::size_t points) {
+    return ply ? ply_header(padding, points, kMapProperties) : pcd_header(padding, points);
   };
   const auto comment = [&](std::size_t spaces) {
     return (ply ? "comment" : "#") + std::string(spaces, ' ') + "\n";

@@ -10,21 +10,21 @@
 
 namespace lego_loam_sc {
 
-// Binary little-endian files. They replace an old file at once and throw InputError when that
-// fails.
+// Binary little-endian files. They replace an existing file atomically and throw InputError when
+// that fails.
 
-/// What CloudFile writes.
+/// File format of CloudFile.
 enum class CloudFormat { ply, pcd };
 
-/// x y z (m), intensity (float32) and key_frame (int32) of points that come bit by bit.
+/// Writes a cloud incrementally: x y z (m), intensity (float32) and key_frame (int32) per point.
 class CloudFile {
  public:
-  /// Throws InputError when it cannot be made.
+  /// Throws InputError when the file cannot be created.
   CloudFile(const std::filesystem::path& path, CloudFormat format);
 
-  /// Adds points at the end.
+  /// Appends points.
   void add(std::span<const MapPoint> points);
-  /// Only now the file is there.
+  /// Completes the file, which does not exist before.
   void commit();
 
  private:
@@ -33,11 +33,11 @@ class CloudFile {
   std::size_t count_ = 0;
 };
 
-/// The same of points that are all at hand, as PLY.
+/// Writes a whole cloud as PLY.
 void write_ply(const std::filesystem::path& path, std::span<const MapPoint> points);
 
-/// A PLY file of any properties: their lines in the header, each with its end of line, and the
-/// bytes of `count` points, of which each holds them in that order without padding.
+/// Writes a PLY file with any properties: their header lines, each with its line end, and the bytes
+/// of `count` points, each with its properties in that order without padding.
 void write_ply(const std::filesystem::path& path, std::string_view properties, std::size_t count,
                std::string_view bytes);
 

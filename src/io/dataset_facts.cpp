@@ -38,7 +38,7 @@ std::optional<Pose> parse_calibration(std::string_view text, const std::string& 
       pose.matrix()(i / 4, i % 4) = *value;
     }
     if (!pose.linear().isUnitary(1e-3))
-      throw InputError(file + ": the 3 x 3 part of Tr is no rotation");
+      throw InputError(file + ": the 3 x 3 part of Tr is not a rotation");
     return normalized(pose);
   }
   return std::nullopt;
@@ -96,7 +96,7 @@ DatasetFacts read_dataset_facts(const std::filesystem::path& folder) {
 
 SensorModel with_facts(SensorModel sensor, const DatasetFacts& facts) {
   sensor.motion_compensated = facts.motion_compensated.value_or(sensor.motion_compensated);
-  // A data set that says so holds raw sweeps; points without times then get them from the azimuth.
+  // Points of explicitly raw sweeps get missing times from the azimuth.
   sensor.times_from_azimuth = facts.motion_compensated.has_value() && !sensor.motion_compensated;
   sensor.elevation_correction_deg =
       facts.elevation_correction_deg.value_or(sensor.elevation_correction_deg);

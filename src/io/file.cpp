@@ -11,8 +11,8 @@
 namespace lego_loam_sc {
 namespace {
 
-// Of pipes and of files that grow while they are read.
-constexpr std::size_t kMostBeyondSize = 64 << 20;
+// Limit for pipes and for files that grow while they are read.
+constexpr std::size_t kMaxExtraBytes = 64 << 20;
 
 [[noreturn]] void fail(const std::filesystem::path& path) {
   throw InputError(path.string() + " cannot be read: " + std::strerror(errno));
@@ -24,11 +24,11 @@ std::string read_file(const std::filesystem::path& path) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
                                                              &std::fclose);
   if (!file) fail(path);
-  std::setvbuf(file.get(), nullptr, _IONBF, 0);  // our buffer is the whole file
+  std::setvbuf(file.get(), nullptr, _IONBF, 0);  // the whole file is read at once
   std::error_code unknown;
   const auto size = std::filesystem::file_size(path, unknown);
   const std::size_t expected = unknown ? 0 : static_cast<std::size_t>(size);
-  // One byte more than the file has: the read that leaves it empty has met the end.
+  // One byte more than the file has: a read that does not fill the buffer has reached the end.
   std::string bytes(expected + 1, '\0');
   std::size_t used = 0;
   for (;;) {
@@ -36,9 +36,9 @@ std::string read_file(const std::filesystem::path& path) {
     const std::size_t got = std::fread(bytes.data() + used, 1, room, file.get());
     used += got;
     if (got < room) break;
-    if (used > expected + kMostBeyondSize)
+    if (used > expected + kMaxExtraBytes)
       throw InputError(path.string() +
-                       " gives more bytes than it has; a file is expected, no device");
+                       " yields more bytes than its size; give a file, not a device");
     bytes.resize(2 * bytes.size());
   }
   if (std::ferror(file.get())) fail(path);

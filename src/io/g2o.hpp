@@ -20,9 +20,9 @@ struct G2oEdge {
   Matrix6 information;  ///< of translation (m), then rotation vector (rad), in the frame `to`
 };
 
-/// Writes a pose graph as VERTEX_SE3:QUAT and EDGE_SE3:QUAT. The information matrix is written as
-/// it is, upper triangle row by row: that is how GTSAM and the common tools read g2o files, though
-/// g2o itself counts rotation in quaternion components. Throws InputError when writing fails.
+/// Writes a pose graph as VERTEX_SE3:QUAT and EDGE_SE3:QUAT. The information matrix is written for
+/// the rotation vector, upper triangle row by row, as GTSAM and common tools read g2o files; g2o
+/// itself uses quaternion components. Throws InputError when writing fails.
 void write_g2o(const std::filesystem::path& path, const std::vector<G2oVertex>& vertices,
                const std::vector<G2oEdge>& edges);
 

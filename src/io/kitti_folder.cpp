@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The camera is where the LiDAR is.
+// The camera is at the position of the LiDAR.
 Pose make_T_camera_lidar() {
   Pose T_camera_lidar = Pose::Identity();
   T_camera_lidar.linear() = R_camera_lidar();
@@ -41,18 +41,12 @@ std::string bin_bytes(const Scan& scan) {
 
 }  // namespace
 
-Eigen::Matrix3d R_camera_lidar() {
-  Eigen::Matrix3d axes;
-  axes << 0, -1, 0, 0, 0, -1, 1, 0, 0;
-  return axes;
-}
-
 KittiFolder::KittiFolder(fs::path folder, const DatasetFacts& facts) : folder_(std::move(folder)) {
   std::error_code error;
   if (fs::exists(folder_, error) && !fs::is_empty(folder_, error))
-    throw InputError(folder_.string() + " is not an empty folder, give a new one");
+    throw InputError(folder_.string() + " is not empty; give a new folder");
   fs::create_directories(folder_ / "velodyne", error);
-  if (error) throw InputError(folder_.string() + " cannot be made: " + error.message());
+  if (error) throw InputError(folder_.string() + " cannot be created: " + error.message());
   write_file(folder_ / "calib.txt", "Tr: " + kitti_line(make_T_camera_lidar()));
   write_dataset_yaml(folder_, facts);
   times_.open(folder_ / "times.txt");
@@ -70,7 +64,7 @@ void KittiFolder::add(const Scan& scan, const Pose& T_world_lidar) {
   truth_ << tum_line({scan.stamp_ns, T_world_lidar}) << std::flush;
   if (!times_ || !poses_ || !truth_)
     throw InputError("times and poses cannot be written to " + folder_.string() +
-                     ", make room on the disk");
+                     "; free space on the disk");
   ++scans_;
 }
 

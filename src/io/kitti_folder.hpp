@@ -10,23 +10,20 @@
 
 namespace lego_loam_sc {
 
-/// The axes of KITTI's camera: R_camera_lidar, x right, y down, z forward.
-Eigen::Matrix3d R_camera_lidar();
-
-/// Writes scans and their truth as a folder in the form of a KITTI sequence:
+/// Writes scans and ground truth as a KITTI sequence folder:
 ///   velodyne/000000.bin   float32 x y z intensity, in the order of the scan
 ///   times.txt             seconds of each scan
-///   calib.txt             Tr: LiDAR to a camera at the same place (x right, y down, z forward)
-///   poses.txt             the truth as KITTI gives it: the camera's, the first is the identity
-///   truth.tum             the truth of the LiDAR frame in the world frame
+///   calib.txt             Tr: LiDAR to a camera at the same position (x right, y down, z forward)
+///   poses.txt             ground truth of the camera relative to its first pose, as in KITTI
+///   truth.tum             ground truth of the LiDAR frame in the world frame
 ///   dataset.yaml          the facts
-/// Each scan is on the disk when `add` returns, so that an interrupted run leaves a whole data set.
+/// Each scan is on disk when `add` returns, so an interrupted run leaves a complete data set.
 class KittiFolder {
  public:
-  /// Makes the folder. Throws InputError when it is there and not empty or cannot be made.
+  /// Creates the folder. Throws InputError when it is not empty or cannot be created.
   KittiFolder(std::filesystem::path folder, const DatasetFacts& facts);
 
-  /// Throws InputError when the disk does not take the scan.
+  /// Throws InputError when the scan cannot be written.
   void add(const Scan& scan, const Pose& T_world_lidar);
 
  private:

@@ -38,7 +38,7 @@ std::optional<std::string> decompress_lzf(std::string_view data, std::size_t siz
     if (at == data.size()) return std::nullopt;
     const std::size_t distance = ((control & 31) << 8) + next() + 1;
     if (distance > made || length > size - made) return std::nullopt;
-    // Byte by byte: a reference may overlap what it makes, which repeats a pattern.
+    // Byte by byte: a reference may overlap its own output, which repeats a pattern.
     for (std::size_t i = 0; i < length; ++i, ++made) out[made] = out[made - distance];
   }
   if (made != size) return std::nullopt;

@@ -9,7 +9,7 @@
 namespace lego_loam_sc {
 
 /// Decompresses LZF data, the compression of PCD's `binary_compressed`. Nothing when the data is
-/// damaged or does not make exactly `size` bytes.
+/// corrupt or does not yield exactly `size` bytes.
 std::optional<std::string> decompress_lzf(std::string_view data, std::size_t size);
 
 }  // namespace lego_loam_sc

@@ -39,7 +39,7 @@ struct Header {
 
 using Lines = std::map<std::string, std::vector<std::string>, std::less<>>;
 
-// Takes the header off the front of `rest`: the words of each line by its keyword.
+// Removes the header from the front of `rest`: the words of each line by its keyword.
 Lines take_header_lines(std::string_view& rest, const std::string& file) {
   Lines lines;
   while (!rest.empty()) {
@@ -52,7 +52,7 @@ Lines take_header_lines(std::string_view& rest, const std::string& file) {
       words.emplace_back(word);
     if (keyword == "DATA") return lines;
   }
-  throw InputError(file + " has no line DATA; it is cut off or no PCD file");
+  throw InputError(file + " has no line DATA; it is truncated or not a PCD file");
 }
 
 std::optional<NumberType> number_type(std::string_view type, std::string_view size) {
@@ -102,7 +102,7 @@ std::optional<std::size_t> parse_count(const Lines& lines, std::string_view keyw
   if (line == lines.end()) return std::nullopt;
   const auto value =
       line->second.size() == 1 ? parse_integer<std::size_t>(line->second.front()) : std::nullopt;
-  if (!value) throw InputError(file + ": " + std::string(keyword) + " must be a whole number");
+  if (!value) throw InputError(file + ": " + std::string(keyword) + " must be an integer");
   return value;
 }
 
@@ -118,7 +118,7 @@ std::size_t parse_points(const Lines& lines, const std::string& file) {
     throw InputError(file + ": WIDTH times HEIGHT is too large");
   if (points && *points != *width * height)
     throw InputError(file + ": POINTS is " + std::to_string(*points) + ", WIDTH times HEIGHT is " +
-                     std::to_string(*width * height) + "; they must be the same");
+                     std::to_string(*width * height) + "; they must be equal");
   return *width * height;
 }
 
@@ -131,13 +131,13 @@ Header take_header(std::string_view& rest, const std::string& file) {
 }
 
 [[noreturn]] void fail_size(const Header& header, std::size_t bytes, const std::string& file) {
-  throw InputError(file + ": the header promises " + std::to_string(header.points) + " points of " +
+  throw InputError(file + ": the header declares " + std::to_string(header.points) + " points of " +
                    std::to_string(header.point_bytes()) + " bytes, the data has " +
-                   std::to_string(bytes) + " bytes; the file is cut off or its header is wrong");
+                   std::to_string(bytes) + " bytes; the file is truncated or its header invalid");
 }
 
 RawScan parse_binary(const Header& header, std::string_view data, const std::string& file) {
-  // There may be more: PCL fills files up to whole memory pages.
+  // There may be more bytes: PCL pads files to whole memory pages.
   if (header.points > data.size() / header.point_bytes()) fail_size(header, data.size(), file);
   std::vector<Column> columns;
   const char* at = data.data();
@@ -148,21 +148,21 @@ RawScan parse_binary(const Header& header, std::string_view data, const std::str
   return assemble(columns, header.points, file);
 }
 
-// Field after field, not point after point.
+// Compressed data is stored field by field.
 RawScan parse_compressed(const Header& header, std::string_view data, const std::string& file) {
   constexpr std::size_t kSizes = 2 * sizeof(std::uint32_t);
-  if (data.size() < kSizes) throw InputError(file + " is cut off after its header");
+  if (data.size() < kSizes) throw InputError(file + " is truncated after its header");
   const auto packed = load<std::uint32_t>(data.data());
   const auto unpacked = load<std::uint32_t>(data.data() + sizeof(std::uint32_t));
   data.remove_prefix(kSizes);
   if (packed > data.size())
-    throw InputError(file + " promises " + std::to_string(packed) + " compressed bytes and holds " +
-                     std::to_string(data.size()) + "; it is cut off");
+    throw InputError(file + " declares " + std::to_string(packed) + " compressed bytes and has " +
+                     std::to_string(data.size()) + "; it is truncated");
   if (header.points > unpacked / header.point_bytes() ||
       header.points * header.point_bytes() != unpacked)
     fail_size(header, unpacked, file);
   const auto bytes = decompress_lzf(data.substr(0, packed), unpacked);
-  if (!bytes) throw InputError(file + ": the compressed data is damaged");
+  if (!bytes) throw InputError(file + ": the compressed data is corrupt");
   std::vector<Column> columns;
   const char* at = bytes->data();
   for (const Field& field : header.fields) {
@@ -177,8 +177,8 @@ RawScan parse_ascii(const Header& header, std::string_view data, const std::stri
   for (const Field& field : header.fields) words += field.count;
   const std::vector<double> table = take_numbers(data, header.points, words, file);
   if (!take_word(data).empty())
-    throw InputError(file + " holds more numbers than its " + std::to_string(header.points) +
-                     " points need; the header is wrong");
+    throw InputError(file + " has more numbers than its " + std::to_string(header.points) +
+                     " points need; the header is invalid");
   std::vector<Column> columns;
   const double* at = table.data();
   for (const Field& field : header.fields) {

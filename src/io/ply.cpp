@@ -54,7 +54,7 @@ NumberType number_type(std::string_view word, const std::string& file) {
   for (const auto& known : kTypes)
     if (word == known.old_name || word == known.name) return known.type;
   throw InputError(file + ": \"" + std::string(word.substr(0, 40)) +
-                   "\" is no type of a PLY property");
+                   "\" is not a type of a PLY property");
 }
 
 Property parse_property(std::string_view line, const std::string& file) {
@@ -83,20 +83,20 @@ Header take_header(std::string_view& rest, const std::string& file) {
       header.elements.push_back({name, *count, {}});
     } else if (keyword == "property") {
       if (header.elements.empty())
-        throw InputError(file + ": a property stands before the first element");
+        throw InputError(file + ": a property precedes the first element");
       header.elements.back().properties.push_back(parse_property(line, file));
     } else if (keyword == "end_header") {
       return header;
     } else if (keyword != "comment" && keyword != "obj_info" && !keyword.empty()) {
       throw InputError(file + ": \"" + std::string(keyword.substr(0, 40)) +
-                       "\" is no keyword of a PLY header");
+                       "\" is not a keyword of a PLY header");
     }
   }
-  throw InputError(file + " has no line end_header; it is cut off");
+  throw InputError(file + " has no line end_header; it is truncated");
 }
 
 [[noreturn]] void fail_short(const Element& element, const std::string& file) {
-  throw InputError(file + ": the header promises " + std::to_string(element.count) +
+  throw InputError(file + ": the header declares " + std::to_string(element.count) +
                    " records of element " + element.name + ", the data ends before them");
 }
 

@@ -11,31 +11,31 @@
 
 namespace lego_loam_sc {
 
-/// What per-point times count in; `none` = they are to be ignored.
+/// Unit of per-point times; `none` = ignore them.
 enum class TimeUnit { seconds, milliseconds, microseconds, nanoseconds, none };
 
-/// What is known about a scan's time before its points are looked at.
+/// Prior knowledge about a scan's stamp and times.
 struct StampHint {
   std::int64_t stamp_ns = 0;
-  bool certain = false;          ///< false: made up from the number of the scan
-  std::optional<TimeUnit> unit;  ///< nothing = decide from the numbers
+  bool certain = false;          ///< false: assumed from the index of the scan
+  std::optional<TimeUnit> unit;  ///< nothing: decide from the values
 };
 
-/// What interpret_point_times makes of the times.
+/// Result of interpret_point_times.
 struct PointTimes {
   std::int64_t stamp_ns = 0;
   std::vector<std::int32_t> offset_ns;  ///< empty: the points have no times
-  std::optional<TimeUnit> unit;         ///< that was used; nothing when the points have no times
-  std::string decision;                 ///< what was decided and from what, one sentence
+  std::optional<TimeUnit> unit;         ///< used; nothing when the points have no times
+  std::string decision;                 ///< the interpretation, one sentence
 };
 
-/// The only place that gives per-point times a meaning. A sweep lasts between 20 and 500 ms: the
-/// unit in which the span of the times does decides. Times within one second of zero count from the
-/// stamp; others are a clock's. That clock is the stamp's own when they lie within one second of
-/// it, else the earliest time is taken to be at the stamp, and becomes the stamp when that is
-/// uncertain. NaN is no time, its offset is 0. Times that are all the same are no times. Throws
-/// InputError, which begins with `file`, with the numbers seen and the setting to give when no unit
-/// fits.
+/// Interprets per-point times; the only place that does. A sweep lasts between 20 and 500 ms: the
+/// unit is the one in which the span of the times does. Times within one second of zero are
+/// relative to the stamp, others are absolute. Absolute times are on the clock of the stamp when
+/// they lie within one second of it; otherwise the earliest time is assumed to be at the stamp, and
+/// replaces the stamp when that is uncertain. The offset of NaN is 0. Constant times count as no
+/// times. When no unit fits, throws InputError, which names `file`, the values and the setting to
+/// give.
 PointTimes interpret_point_times(std::span<const double> times, NumberType type,
                                  const StampHint& hint, const std::string& file);
 

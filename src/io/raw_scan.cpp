@@ -14,8 +14,8 @@
 namespace lego_loam_sc {
 namespace {
 
-// As ROS, PCL, Velodyne, Ouster, Hesai, RoboSense and Livox drivers name them; the first that the
-// file has counts.
+// Field names of ROS, PCL and the drivers of Velodyne, Ouster, Hesai, RoboSense and Livox; the
+// first that the file has is used.
 constexpr std::array<std::string_view, 3> kIntensityNames = {"intensity", "reflectivity", "i"};
 constexpr std::array<std::string_view, 4> kRingNames = {"ring", "line", "channel", "laser_id"};
 constexpr std::array<std::string_view, 6> kTimeNames = {"t",           "time",       "timestamp",
@@ -29,7 +29,7 @@ const Column* find(std::span<const Column> columns, const std::array<std::string
   return nullptr;
 }
 
-// Calls set(i, value) for each number. One loop per type: the type is not looked at per point.
+// Calls set(i, value) for each number, with one loop per type.
 template <class T, class Set>
 void for_each_number(const Column& column, std::size_t count, Set&& set) {
   const char* at = column.data;
@@ -90,7 +90,7 @@ RawScan assemble(std::span<const Column> columns, std::size_t count, const std::
     raw.time.resize(count);
     raw.time_type = time->declared;
     for_each(*time, count, [&](std::size_t i, auto value) {
-      // Drivers leave anything in the time of a point that they have no return for.
+      // The time of a point without return is undefined.
       raw.time[i] = is_return(scan.points[i]) ? static_cast<double>(value)
                                               : std::numeric_limits<double>::quiet_NaN();
     });
@@ -100,9 +100,9 @@ RawScan assemble(std::span<const Column> columns, std::size_t count, const std::
 
 std::vector<double> take_numbers(std::string_view& rest, std::size_t count, std::size_t width,
                                  const std::string& file) {
-  // Every number but the last takes two bytes at least, with its blank.
+  // Every number but the last takes at least two bytes, including white space.
   if (count > (rest.size() + 1) / 2 / width)
-    throw InputError(file + ": the header promises " + std::to_string(count) +
+    throw InputError(file + ": the header declares " + std::to_string(count) +
                      " points, the data is too short for them");
   std::vector<double> numbers(std::max<std::size_t>(count, 1) * width);
   for (std::size_t i = 0; i < count * width; ++i) {
@@ -111,8 +111,8 @@ std::vector<double> take_numbers(std::string_view& rest, std::size_t count, std:
     if (!value)
       throw InputError(
           file + ": point " + std::to_string(i / width) + " of " + std::to_string(count) +
-          (word.empty() ? " is not there; the file is cut off"
-                        : ": \"" + std::string(word.substr(0, 40)) + "\" is no number"));
+          (word.empty() ? " is missing; the file is truncated"
+                        : ": \"" + std::string(word.substr(0, 40)) + "\" is not a number"));
     numbers[i] = *value;
   }
   return numbers;

@@ -37,31 +37,30 @@ constexpr std::size_t size_of(NumberType type) {
   }
 }
 
-/// A field of a point file: one number per point, `stride` bytes apart in memory.
+/// A field of a point file in memory: one number per point, `stride` bytes apart.
 struct Column {
   std::string name;
-  NumberType declared;  ///< as the file's header has it
-  NumberType stored;    ///< as it lies in memory
+  NumberType declared;  ///< type in the file's header
+  NumberType stored;    ///< type in memory
   const char* data;
   std::size_t stride;
   bool big_endian = false;
 };
 
-/// What a PCD or PLY file says. Its times are still numbers without a meaning: see point_times.hpp.
+/// The content of a PCD or PLY file. Its times are not interpreted yet, see point_times.hpp.
 struct RawScan {
   Scan scan;                 ///< without stamp and offsets
   std::vector<double> time;  ///< one per point, NaN for points without return; may be empty
   NumberType time_type = NumberType::float64;
 };
 
-/// Picks position, intensity, ring and time out of `count` points by the names that drivers give
-/// them. Throws InputError, which begins with `file`, when x, y or z is missing or a ring is out of
-/// range.
+/// Extracts position, intensity, ring and time of `count` points by the field names that drivers
+/// use. Throws InputError, which names `file`, when x, y or z is missing or a ring is out of range.
 RawScan assemble(std::span<const Column> columns, std::size_t count, const std::string& file);
 
-/// Takes `count` points of `width` (not 0) numbers in words off the front of `rest`; one row is
-/// returned even for no points, so that each column has an address. Throws InputError, which begins
-/// with `file`, when they are not there; allocates nothing before it is clear that they can be.
+/// Parses `count` points of `width` (not 0) numbers from the front of `rest`; returns at least one
+/// row, so that each column has an address. Throws InputError, which names `file`, when there are
+/// fewer. Checks `count` against the length of `rest` before it allocates memory.
 std::vector<double> take_numbers(std::string_view& rest, std::size_t count, std::size_t width,
                                  const std::string& file);
 

@@ -13,11 +13,9 @@
 #include "core/text.hpp"
 #include "io/bin.hpp"
 #include "io/file.hpp"
-#include "io/natural_order.hpp"
 #include "io/pcd.hpp"
 #include "io/ply.hpp"
 #include "io/scan_stream.hpp"
-#include "io/scan_times.hpp"
 
 namespace lego_loam_sc {
 namespace {
@@ -25,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::int64_t kAssumedPeriodNs = 100'000'000;
-constexpr std::size_t kTellingScans = 10;  // at most, to tell the unit of times by
+constexpr std::size_t kScansForTimeUnit = 10;  // read at most to determine the unit of times
 
 bool is_scan(const fs::path& path) {
   return path.extension() == ".bin" || path.extension() == ".pcd" || path.extension() == ".ply";
@@ -33,21 +31,21 @@ bool is_scan(const fs::path& path) {
 
 class FileSource : public ScanSource {
  public:
-  /// `stamps_ns` has one stamp for each file or is empty.
+  /// `stamps_ns` has one stamp per file or is empty.
   FileSource(std::vector<fs::path> files, std::vector<std::int64_t> stamps_ns, DatasetFacts facts)
       : files_(std::move(files)), stamps_ns_(std::move(stamps_ns)) {
     facts_ = std::move(facts);
     if (stamps_ns_.empty() && files_.size() > 1)
       notes_.emplace_back(
-          "there is no times.txt: stamps come from absolute times of the points, or else scans are "
-          "0.1 s apart");
+          "there is no times.txt: stamps come from absolute point times, or else scans are 0.1 s "
+          "apart");
   }
 
   std::optional<std::size_t> size() const override { return files_.size(); }
 
   std::optional<Scan> next() override {
     if (next_ == files_.size()) return std::nullopt;
-    const std::size_t index = next_++;  // also past a bad scan
+    const std::size_t index = next_++;  // advances past an invalid scan, too
     StampHint hint;
     hint.certain = !stamps_ns_.empty();
     hint.stamp_ns =
@@ -67,7 +65,7 @@ class FileSource : public ScanSource {
     PointTimes times = interpret(raw, hint, file);
     raw.scan.stamp_ns = times.stamp_ns;
     raw.scan.offset_ns = std::move(times.offset_ns);
-    // One driver wrote all scans: what a full sweep decided holds for sparse ones too.
+    // One driver wrote all scans, so the unit found in a full sweep holds for sparse scans too.
     if (times.unit && !unit_) {
       unit_ = times.unit;
       notes_.push_back(std::move(times.decision));
@@ -89,16 +87,16 @@ class FileSource : public ScanSource {
     return interpret_point_times(raw.time, raw.time_type, hint, file.string());
   }
 
-  // The first scans may be too short to tell the unit by.
+  // The first scans may be too short to determine the unit.
   std::optional<TimeUnit> unit_of_next_files(const StampHint& hint) const {
-    const std::size_t end = std::min(next_ + kTellingScans - 1, files_.size());
+    const std::size_t end = std::min(next_ + kScansForTimeUnit - 1, files_.size());
     for (std::size_t index = next_; index < end; ++index) {
       try {
         const RawScan raw = read_points(files_[index]);
         const PointTimes times = interpret_point_times(raw.time, raw.time_type, hint, "");
         if (times.unit) return times.unit;
       } catch (const InputError&) {
-        continue;  // it is reported when its turn comes
+        continue;  // reported when it is read itself
       }
     }
     return std::nullopt;
@@ -121,8 +119,7 @@ class StreamSource : public ScanSource {
   ScanStreamReader reader_;
 };
 
-// The file must be open before the reader looks at it, and outlive it: so it is a base, not a
-// member.
+// The file must be opened before the reader is constructed and outlive it, so it is a base class.
 struct OpenFile {
   explicit OpenFile(const fs::path& path) : file(path, std::ios::binary) {}
   std::ifstream file;
@@ -145,12 +142,12 @@ std::vector<fs::path> list_scans(const fs::path& folder) {
   }
   if (files.empty())
     throw InputError(folder.string() +
-                     " holds no scans; give a folder with .bin, .pcd or .ply files, or one with "
+                     " contains no scans; give a folder with .bin, .pcd or .ply files, or one with "
                      "velodyne/*.bin");
   if (kinds.size() > 1)
-    throw InputError(folder.string() + " holds scans of different kinds (" +
+    throw InputError(folder.string() + " contains scans of different kinds (" +
                      join(std::vector<std::string>(kinds.begin(), kinds.end())) +
-                     "); leave one kind in it");
+                     "); keep only one kind");
   std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
     return natural_less(a.filename().string(), b.filename().string());
   });
@@ -197,9 +194,25 @@ std::unique_ptr<ScanSource> open_scans(const std::string& input) {
   } catch (const fs::filesystem_error& error) {
     throw InputError(input + " cannot be read: " + error.code().message());
   }
-  throw InputError(input +
-                   " is no folder of scans, no .bin, .pcd or .ply scan and no scan stream; other "
-                   "recordings are read through the companion package");
+  throw InputError(
+      input +
+      " is neither a folder of scans, a .bin, .pcd or .ply scan nor a scan stream; other "
+      "recordings are read through the companion package");
+}
+
+std::vector<std::int64_t> parse_scan_times(std::string_view text, const std::string& file) {
+  std::vector<std::int64_t> stamps;
+  for (std::size_t number = 1; !text.empty(); ++number) {
+    std::string_view line = take_line(text);
+    const std::string_view word = take_word(line);
+    if (word.empty()) continue;
+    const auto stamp = parse_seconds(word);
+    if (!stamp || !take_word(line).empty())
+      throw InputError(file + ", line " + std::to_string(number) +
+                       ": one number is expected, the stamp of a scan in seconds");
+    stamps.push_back(*stamp);
+  }
+  return stamps;
 }
 
 }  // namespace lego_loam_sc

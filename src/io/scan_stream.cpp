@@ -18,7 +18,7 @@ constexpr std::uint32_t kMaxPoints = 10'000'000;
 constexpr std::string_view kMarker = "SCAN";
 constexpr std::uint32_t kIntensity = 1, kRing = 2, kOffset = 4;
 
-static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float), "points are written as they lie");
+static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float), "points are written as in memory");
 
 template <class T>
 std::string_view bytes_of(const std::vector<T>& array) {
@@ -27,7 +27,8 @@ std::string_view bytes_of(const std::vector<T>& array) {
 
 void check(const std::ostream& out) {
   if (!out)
-    throw InputError("the scan stream cannot be written, its reader has ended or the disk is full");
+    throw InputError(
+        "the scan stream cannot be written, its reader has closed it or the disk is full");
 }
 
 }  // namespace
@@ -62,7 +63,8 @@ ScanStreamReader::ScanStreamReader(std::istream& in, std::string name)
   std::array<char, kScanStreamMagic.size()> magic;
   read(magic.data(), magic.size());
   if (std::string_view(magic.data(), magic.size()) != kScanStreamMagic)
-    fail("it does not begin with " + std::string(kScanStreamMagic) + ", so it is no scan stream");
+    fail("it does not begin with " + std::string(kScanStreamMagic) +
+         ", so it is not a scan stream");
   const auto version = read_number<std::uint32_t>();
   if (version != kVersion)
     fail("it has version " + std::to_string(version) + ", this program reads version 1");
@@ -98,7 +100,7 @@ std::optional<Scan> ScanStreamReader::next() {
 void ScanStreamReader::read(char* bytes, std::size_t size) {
   in_.read(bytes, static_cast<std::streamsize>(size));
   byte_ += static_cast<std::size_t>(in_.gcount());
-  if (static_cast<std::size_t>(in_.gcount()) != size) fail("it is cut off");
+  if (static_cast<std::size_t>(in_.gcount()) != size) fail("it is truncated");
 }
 
 template <class T>
@@ -123,7 +125,7 @@ std::vector<T> ScanStreamReader::read_array(std::size_t count) {
 void ScanStreamReader::fail(const std::string& what) {
   ended_ = true;
   throw InputError(name_ + ": " + what + "; " + std::to_string(scans_) +
-                   " scans were whole, the fault is at byte " + std::to_string(byte_));
+                   " scans were complete, the error is at byte " + std::to_string(byte_));
 }
 
 }  // namespace lego_loam_sc

@@ -18,8 +18,8 @@ namespace lego_loam_sc {
 
 constexpr std::string_view kScanStreamMagic = "LLSCSCAN";
 
-/// Writes scans to a binary stream, the header on construction. Throws InputError when the stream
-/// does not take them or the scan's arrays differ in length.
+/// Writes scans to a binary stream; the constructor writes the header. Throws InputError when
+/// writing fails or the arrays of a scan differ in length.
 class ScanStreamWriter {
  public:
   explicit ScanStreamWriter(std::ostream& out, const DatasetFacts& facts = {});
@@ -29,9 +29,9 @@ class ScanStreamWriter {
   std::ostream& out_;
 };
 
-/// Reads scans from a binary stream. Throws InputError that names `name`, the number of whole scans
-/// and the byte when the stream is cut off or damaged; after that `next` returns nothing. Memory
-/// grows with what arrives, not with what a header promises.
+/// Reads scans from a binary stream. When the stream is truncated or corrupt, throws InputError
+/// with `name`, the number of complete scans and the byte; after that `next` returns nothing.
+/// Memory grows with the data received, not with the size that a header declares.
 class ScanStreamReader {
  public:
   ScanStreamReader(std::istream& in, std::string name);

@@ -9,7 +9,7 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "io/file.hpp"
-#include "io/preset_text.hpp"
+#include "io/presets.hpp"
 #include "io/yaml.hpp"
 
 namespace lego_loam_sc {
@@ -35,7 +35,7 @@ void visit_fields(Sensor& s, Visit&& visit) {
   visit("mount_pitch_deg", s.mount_pitch_deg, "positive looks down to the front");
 }
 
-// Validation of the ranges is the model's own.
+// Ranges are checked by validate(SensorModel).
 void set(bool& value, const YamlEntry& entry) {
   value = to_bool(entry);
 }

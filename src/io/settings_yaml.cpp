@@ -7,13 +7,13 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "io/file.hpp"
-#include "io/preset_text.hpp"
+#include "io/presets.hpp"
 #include "io/yaml.hpp"
 
 namespace lego_loam_sc {
 namespace {
 
-// Calls visit(group, name, value, ...) for every setting, with what the struct's own `fields` give.
+// Calls visit(group, name, value, ...) for every setting, with the limits and comment of its field.
 template <class SettingsOrConst, class Visit>
 void visit_all(SettingsOrConst& settings, Visit&& visit) {
   Settings::groups(settings, [&](const std::string& group, auto& section) {
@@ -70,7 +70,7 @@ void apply_assignment(const std::string& assignment, Settings& settings) {
         settings);
 }
 
-// Writes a group's head when it is met first; loop.scan_context stands inside loop.
+// Writes the head of a group before its first setting; loop.scan_context is nested in loop.
 class Printer {
  public:
   void operator()(const std::string& group, const char* name, bool value, const char* comment) {
@@ -112,7 +112,7 @@ Settings load_settings(const std::string& method,
   apply_settings_yaml(*preset, "the preset " + method, settings);
   if (config_file) apply_settings_yaml(read_file(*config_file), config_file->string(), settings);
   for (const std::string& assignment : assignments) apply_assignment(assignment, settings);
-  // Each value was checked where its line is known; this is for what only the core may check.
+  // Single values were checked with their line; this checks their combination.
   if (const auto fault = validate(settings)) throw InputError(*fault);
   return settings;
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -14,24 +15,24 @@ namespace {
 
 constexpr std::size_t kTumColumns = 8;
 constexpr std::size_t kKittiColumns = 12;
-// Files are rounded to as few as three digits; what is farther off is something else.
+// Files may be rounded to three digits.
 constexpr double kRotationTolerance = 0.02;
 
 using Numbers = std::array<double, kKittiColumns>;  // the longer of the two
 
-// The number of columns in a line; what does not fit into `numbers` is counted alone.
+// Parses the numbers of a line and returns their count; those that do not fit are only counted.
 std::size_t parse_numbers(std::string_view line, Numbers& numbers, const std::string& where) {
   std::size_t count = 0;
   for (std::string_view word = take_word(line); !word.empty(); word = take_word(line), ++count) {
     const auto value = parse_double(word);
     if (!value || !std::isfinite(*value))
-      throw InputError(where + ": \"" + std::string(word.substr(0, 40)) + "\" is no number");
+      throw InputError(where + ": \"" + std::string(word.substr(0, 40)) + "\" is not a number");
     if (count < numbers.size()) numbers[count] = *value;
   }
   return count;
 }
 
-// Apart from the other numbers: a double would round it.
+// Not as a double, which would round it.
 std::int64_t parse_stamp(std::string_view line, const std::string& where) {
   const std::string_view word = take_word(line);
   const auto stamp_ns = parse_seconds(word);
@@ -58,11 +59,17 @@ Pose pose_from_kitti(const Numbers& v, const std::string& where) {
   const Eigen::Matrix3d r = pose.linear();
   const double error = (r.transpose() * r - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   if (!(error < kRotationTolerance) || r.determinant() < 0.0)
-    throw InputError(where + ": the 3 x 3 part of the matrix is no rotation");
+    throw InputError(where + ": the 3 x 3 part of the matrix is not a rotation");
   return normalized(pose);
 }
 
 }  // namespace
+
+Eigen::Matrix3d R_camera_lidar() {
+  Eigen::Matrix3d axes;
+  axes << 0, -1, 0, 0, 0, -1, 1, 0, 0;
+  return axes;
+}
 
 std::string tum_line(const StampedPose& stamped) {
   const Eigen::Quaterniond q(stamped.pose.linear());
@@ -123,9 +130,22 @@ PoseFile parse_poses(std::string_view text, const std::string& file) {
           {static_cast<std::int64_t>(result.poses.size()), pose_from_kitti(numbers, where)});
   }
   if (result.poses.empty())
-    throw InputError(file + " holds no pose; it must be a TUM or KITTI trajectory");
+    throw InputError(file + " contains no pose; it must be a TUM or KITTI trajectory");
   result.has_stamps = columns == kTumColumns;
   return result;
+}
+
+Trajectory read_route(const std::filesystem::path& path) {
+  PoseFile file = read_poses(path);
+  if (!file.has_stamps) {
+    const Eigen::Matrix3d axes = R_camera_lidar();
+    for (StampedPose& stamped : file.poses) {
+      stamped.stamp_ns *= 100'000'000;
+      stamped.pose.translation() = axes.transpose() * stamped.pose.translation();
+      stamped.pose.linear() = axes.transpose() * stamped.pose.linear() * axes;
+    }
+  }
+  return std::move(file.poses);
 }
 
 }  // namespace lego_loam_sc

@@ -14,8 +14,8 @@
 namespace lego_loam_sc {
 namespace {
 
-// Flattens the events of the parser. Working on events instead of nodes sees keys that are there
-// twice, and gives aliases no chance to blow a small file up.
+// Flattens the events of the parser. Unlike nodes, events show duplicate keys, and aliases cannot
+// expand a small file into a huge one.
 class Flattener : public YAML::EventHandler {
  public:
   explicit Flattener(const std::string& file) : file_(file) {}
@@ -23,12 +23,12 @@ class Flattener : public YAML::EventHandler {
   std::vector<YamlEntry> take_entries() { return std::move(entries_); }
 
   void OnDocumentStart(const YAML::Mark& mark) override {
-    if (++documents_ > 1) fail(mark, "a second document begins; one is read");
+    if (++documents_ > 1) fail(mark, "a second document starts here; only one is allowed");
   }
   void OnDocumentEnd() override {}
 
   void OnNull(const YAML::Mark& mark, YAML::anchor_t) override {
-    if (groups_.empty()) return;  // nothing but comments
+    if (groups_.empty()) return;  // only comments
     fail(mark, "a value is missing; give one or remove the line");
   }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
@@ -63,7 +63,7 @@ class Flattener : public YAML::EventHandler {
                   YAML::EmitterStyle::value) override {
     if (in_list_ || (!groups_.empty() && groups_.back().key.empty()))
       fail(mark, "a map is not expected here");
-    if (groups_.size() > kMaxDepth) fail(mark, "groups are nested too deep");
+    if (groups_.size() > kMaxDepth) fail(mark, "groups are nested too deeply");
     std::string prefix;
     if (!groups_.empty()) prefix = groups_.back().prefix + groups_.back().key + ".";
     groups_.push_back({prefix, {}, 0});
@@ -78,7 +78,7 @@ class Flattener : public YAML::EventHandler {
 
   struct Group {
     std::string prefix;
-    std::string key;  // whose value comes next; empty before a key
+    std::string key;  // its value comes next; empty before a key
     int line;
   };
 
@@ -91,7 +91,7 @@ class Flattener : public YAML::EventHandler {
     YamlEntry entry{
         group.prefix + group.key, {}, is_list, file_ + ", line " + std::to_string(group.line)};
     if (!seen_.insert(entry.key).second)
-      throw InputError(entry.where + ": " + entry.key + " is there twice");
+      throw InputError(entry.where + ": " + entry.key + " occurs twice");
     group.key.clear();
     return entries_.emplace_back(std::move(entry));
   }
@@ -134,7 +134,7 @@ bool to_bool(const YamlEntry& entry) {
 int to_int(const YamlEntry& entry, int minimum, int maximum) {
   const auto value = entry.is_list ? std::nullopt : parse_integer<int>(entry.values.front());
   if (!value || *value < minimum || *value > maximum)
-    fail_value(entry, "a whole number between " + to_text(minimum) + " and " + to_text(maximum));
+    fail_value(entry, "an integer between " + to_text(minimum) + " and " + to_text(maximum));
   return *value;
 }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "map/thin_out.hpp"
+#include "map/voxel_filter.hpp"
 #include "map/voxel_table.hpp"
 #include "registration/deskew.hpp"
 
@@ -18,20 +18,21 @@ std::vector<PackedPoint> packed(const std::vector<FeaturePoint>& points) {
   return result;
 }
 
-float age_span(const RangeImage& image) {
+float max_abs_time(const RangeImage& image) {
   float span = 0.0f;
-  for (const float age : image.age) span = std::max(span, std::abs(age));
+  for (const float time : image.time) span = std::max(span, std::abs(time));
   return span;
 }
 
 }  // namespace
 
 std::vector<Eigen::Vector3f> deskewed_points(const RangeImage& image, const Vector6& twist) {
-  const float span = age_span(image);
+  const float span = max_abs_time(image);
   if (span == 0.0f) return image.points;
   const SweepMotion motion(twist, span);
   std::vector<Eigen::Vector3f> points(image.size());
-  for (std::size_t i = 0; i < points.size(); ++i) points[i] = motion(image.points[i], image.age[i]);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    points[i] = motion(image.points[i], image.time[i]);
   return points;
 }
 
@@ -41,7 +42,7 @@ KeyFrame make_key_frame(const RangeImage& image, const Segmentation& segmentatio
   KeyFrame key_frame;
   key_frame.reference_ns = image.reference_ns;
   key_frame.travelled = travelled;
-  const Features thin = thin_out(deskewed, spacing);
+  const Features thin = voxel_filter(deskewed, spacing);
   key_frame.planars = packed(thin.planars_large);
   key_frame.edges = packed(thin.edges_large);
 

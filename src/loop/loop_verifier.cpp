@@ -7,7 +7,7 @@
 
 #include "features/features.hpp"
 #include "map/local_map.hpp"
-#include "map/thin_out.hpp"
+#include "map/voxel_filter.hpp"
 #include "registration/correspondence.hpp"
 #include "registration/localizability.hpp"
 
@@ -17,10 +17,7 @@ namespace {
 constexpr double kPlanarity = 0.1;
 // Reach of a correspondence, in voxels of its level.
 constexpr double kReachVoxels = 1.5;
-// The kernel's scale in robust spreads of the residuals, and its limits in their sigmas.
-constexpr double kKernelSpreads = 2.0;
-constexpr double kMinScale = 1.0;
-constexpr double kMaxScale = 80.0;
+constexpr RobustKernel kKernel{.factor = 2.0, .min_scale = 1.0, .max_scale = 80.0};
 // Whole constraints that hold each direction of a loop.
 constexpr double kMinStrength = 5.0;
 constexpr int kMinMatches = 50;
@@ -62,12 +59,11 @@ Pose register_coarse_to_fine(const Features& query, LocalMap& map, Pose pose, do
     for (int k = 0; k < settings.iterations; ++k) {
       const auto correspondences = map.match(query, pose, reach, range_noise, level, surfaces);
       if (static_cast<int>(correspondences.size()) < kMinMatches) break;
-      const double scale =
-          robust_scale(correspondences, pose, kKernelSpreads, kMinScale, kMaxScale);
+      const double scale = robust_scale(correspondences, pose, kKernel);
       const auto result = levenberg_marquardt<6>(
           pose, 2, [&](const Pose& at) { return normal_equations(correspondences, at, scale); },
           perturb);
-      if (result.step < kConvergedStep) break;
+      if (result.step < kStepConvergence) break;
     }
   }
   return normalized(pose);
@@ -90,7 +86,7 @@ LoopVerification judge(const Features& query, LocalMap& map, const Pose& pose, d
       map.match(query, pose, kReachVoxels * settings.voxel_size, range_noise, 0, surfaces);
   if (static_cast<int>(correspondences.size()) < kMinMatches) return result;
 
-  const double scale = robust_scale(correspondences, pose, kKernelSpreads, kMinScale, kMaxScale);
+  const double scale = robust_scale(correspondences, pose, kKernel);
   const NormalEquations<6> equations = normal_equations(correspondences, pose, scale);
   double sum = 0.0;
   for (const Correspondence& c : correspondences) {
@@ -137,7 +133,7 @@ LoopVerification verify_loop(std::span<const PlacedKeyFrame> query,
                              const VerifierSettings& settings) {
   LocalMap map(settings.voxel_size, settings.levels, kPlanarity);
   map.insert(merge(match), Pose::Identity());
-  const Features source = thin_out(merge(query), 2.0 * settings.voxel_size);
+  const Features source = voxel_filter(merge(query), 2.0 * settings.voxel_size);
 
   LoopVerification best;
   for (const Pose& guess : guesses_T_match_query) {

@@ -11,43 +11,42 @@
 
 namespace lego_loam_sc {
 
-/// Voxel sizes that a map may have.
+/// Maximum number of voxel sizes of a map.
 constexpr int kMaxLevels = 6;
 
-/// What the points of one scan were matched with. While its pose settles most points stay in their
-/// blocks and need not be looked up again. Good for the same points, first level and state of the
-/// map.
+/// Cache of the surfaces that the points of one scan were matched with: while the pose converges,
+/// most points stay in their blocks. Valid for the same points, first level and state of the map.
 struct MatchedSurfaces {
   struct Entry {
-    int level = -1;                             ///< the last that was looked at
-    std::array<VoxelKey, kMaxLevels> blocks{};  ///< on each level from the first to that
-    Surface surface;                            ///< none when no level has one
+    int level = -1;                             ///< the last one searched
+    std::array<VoxelKey, kMaxLevels> blocks{};  ///< on each searched level
+    Surface surface;                            ///< kind `none` when no level has one
   };
   std::vector<Entry> planes, lines, scattered;
 };
 
-/// The surroundings as planes, lines and places: a surface map of the planar features, one of the
-/// edges and one of the scattered points for each of several voxel sizes. Serves the mapper and the
-/// verifier of loops.
+/// The local map as planes, lines and points: for each of several voxel sizes a surface map of the
+/// planar features, one of the edges and one of the scattered points. Used by the mapper and the
+/// loop verifier.
 class LocalMap {
  public:
-  /// The finest voxels measure `voxel_size` (m), each of the `levels` twice the one before. Where
-  /// the rows of the sensor, `row_spacing` (rad) apart, are farther from each other than a block is
-  /// wide, no surface can be seen in it: such planar and edge points go to the coarser levels only.
-  /// 0 = to all.
+  /// The finest voxels measure `voxel_size` (m), those of each further level twice as much. At
+  /// ranges where the rows of the sensor, `row_spacing` (rad) apart, are farther from each other
+  /// than a block is wide, a block holds one row and no surface: such planar and edge points go to
+  /// coarser levels only. 0: all points go to all levels.
   LocalMap(double voxel_size, int levels, double planarity, double row_spacing = 0.0);
 
-  /// Adds the large sets and the scattered points.
+  /// Inserts the large sets and the scattered points.
   void insert(const Features& features, const Pose& T_map_points);
 
-  /// The correspondences of the points of these sets that find a surface within `max_distance` (m)
-  /// on the finest level that has one, starting at `first_level` (0 = finest). `last`: what was
-  /// found at another pose, or empty.
+  /// Correspondences of the points of these sets with the surface on the finest level that has one,
+  /// from `first_level` (0 = finest) on, when it is within `max_distance` (m). `cache` holds the
+  /// surfaces found at a previous pose, or is empty; it is updated.
   std::vector<Correspondence> match(const Features& features, const Pose& T_map_points,
                                     double max_distance, double range_noise, int first_level,
-                                    MatchedSurfaces& last);
+                                    MatchedSurfaces& cache);
 
-  /// True when a point lies in the finest voxel of `point` (map frame).
+  /// Whether the finest voxel of `point` (map frame) holds points.
   bool occupied(const Eigen::Vector3d& point) const;
 
   void remove_beyond(const Eigen::Vector3d& center, double radius);
@@ -62,7 +61,7 @@ class LocalMap {
   }
 
  private:
-  std::vector<double> reach_;       // m, up to which the finer levels take planes and lines
+  std::vector<double> max_range_;   // m, of planar and edge points on each finer level
   std::vector<SurfaceMap> planes_;  // finest first
   std::vector<SurfaceMap> lines_;
   std::vector<SurfaceMap> scattered_;

@@ -10,26 +10,24 @@
 namespace lego_loam_sc {
 namespace {
 
-// Fewer points say nothing about a surface.
+// Fewer points do not determine a surface.
 constexpr std::uint32_t kMinPoints = 6;
-// Standard deviation along a surface, in voxels, below which its orientation is a guess.
-constexpr double kMinSpread = 0.15;
-// Standard deviation of a direction, rad, from the noise of the points that it is fitted to, above
-// which it says more about them than about the surface: a quarter of the angle at which a surface
-// begins to count as a constraint across it (localizability.cpp).
-constexpr double kMaxTilt = 0.05;
-// A kept fit is good until its points have grown by this share.
+// Minimum standard deviation along a surface, in voxels; with less its orientation is arbitrary.
+constexpr double kMinExtent = 0.15;
+// Maximum standard deviation of a fitted direction from the noise of its points, rad: a quarter of
+// the angle at which a surface starts to count as a constraint along itself (localizability.cpp).
+constexpr double kMaxDirectionSigma = 0.05;
+// A surface is fitted again when the number of its points has grown by this share.
 constexpr double kGrowth = 0.1;
-// A block is looked at again after one insertion more for so many points, and after so many at the
-// latest.
+// Insertions between two checks of a block: one more for every so many points, up to a maximum.
 constexpr std::uint32_t kPointsPerRevision = 16;
-constexpr std::uint32_t kLongestRest = 10;
+constexpr std::uint32_t kMaxRevisions = 10;
 
 }  // namespace
 
 SurfaceMap::SurfaceMap(const SurfaceMapSettings& settings) : settings_(settings) {}
 
-// The lowest corner of a cell moved by `cells` along each axis, m.
+// The lowest corner of a cell, shifted by `cells` along each axis, m.
 Eigen::Vector3d SurfaceMap::corner_of(const Cell& cell, double cells) const {
   const Eigen::Vector3d corner(static_cast<double>(cell[0]), static_cast<double>(cell[1]),
                                static_cast<double>(cell[2]));
@@ -37,7 +35,7 @@ Eigen::Vector3d SurfaceMap::corner_of(const Cell& cell, double cells) const {
 }
 
 void SurfaceMap::insert(std::span<const Eigen::Vector3d> points, std::span<const double> ranges) {
-  // The table is larger than the caches: each voxel is fetched some points ahead, in two steps.
+  // The table exceeds the CPU caches: each voxel is prefetched some points ahead, in two steps.
   constexpr std::size_t kAhead = 16;
   std::array<std::optional<Cell>, kAhead> ahead;
   for (std::size_t next = 0; next < points.size() + kAhead; ++next) {
@@ -77,7 +75,7 @@ Surface SurfaceMap::surface_of(VoxelKey block) {
   if (block == kNoBlock) return {};
   const Cell corner = unpack_cell(block);
   Block& kept = blocks_.find_or_insert(block).first;
-  if (revision_ >= kept.due) look_again(kept, corner);
+  if (revision_ >= kept.due) refit_if_grown(kept, corner);
   Surface surface;
   surface.kind = kept.kind;
   surface.mean = corner_of(corner, 1.0) + kept.mean.cast<double>();
@@ -87,8 +85,8 @@ Surface SurfaceMap::surface_of(VoxelKey block) {
   return surface;
 }
 
-// Fits a surface anew when enough points have come.
-void SurfaceMap::look_again(Block& block, const Cell& corner) {
+// Fits the surface again when the block has grown enough, and schedules the next check.
+void SurfaceMap::refit_if_grown(Block& block, const Cell& corner) {
   std::array<const Voxel*, 8> voxels{};
   std::uint32_t count = 0;
   for (int i = 0; i < 8; ++i) {
@@ -97,14 +95,15 @@ void SurfaceMap::look_again(Block& block, const Cell& corner) {
     if (voxels[i]) count += voxels[i]->count;
   }
   if (count >= kMinPoints && count > (1.0 + kGrowth) * block.count) fit(voxels, count, block);
-  block.due = revision_ + 1 + std::min(block.count / kPointsPerRevision, kLongestRest);
+  block.due = revision_ + 1 + std::min(block.count / kPointsPerRevision, kMaxRevisions);
 }
 
 Surface::Kind SurfaceMap::kind_of(const Eigen::Vector3d& variance, std::uint32_t count) const {
-  const double spread = std::pow(kMinSpread * settings_.voxel_size, 2);
-  const double ratio = std::min(settings_.planarity, kMaxTilt * kMaxTilt * count);
-  const bool plane = variance[1] >= spread && variance[0] <= ratio * variance[1];
-  const bool line = variance[2] >= spread && variance[1] <= ratio * variance[2];
+  const double min_variance = std::pow(kMinExtent * settings_.voxel_size, 2);
+  const double ratio =
+      std::min(settings_.planarity, kMaxDirectionSigma * kMaxDirectionSigma * count);
+  const bool plane = variance[1] >= min_variance && variance[0] <= ratio * variance[1];
+  const bool line = variance[2] >= min_variance && variance[1] <= ratio * variance[2];
   switch (settings_.kind) {
     case Surface::Kind::plane: return plane ? Surface::Kind::plane : Surface::Kind::none;
     case Surface::Kind::line: return line ? Surface::Kind::line : Surface::Kind::none;
@@ -114,7 +113,7 @@ Surface::Kind SurfaceMap::kind_of(const Eigen::Vector3d& variance, std::uint32_t
 
 void SurfaceMap::fit(const std::array<const Voxel*, 8>& voxels, std::uint32_t count,
                      Block& block) const {
-  // Sums of all voxels, moved to the middle of the block.
+  // Sums over all voxels, relative to the centre of the block.
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
   double range = 0.0;

@@ -5,15 +5,15 @@
 #include <cstdint>
 #include <vector>
 
+#include "features/features.hpp"
 #include "map/voxel_table.hpp"
 
 namespace lego_loam_sc {
 
-/// One point of each voxel, in the order of the points: which one is left to a fixed sequence that
-/// knows nothing of the points. (The first one would be chosen by its noise: whichever strays ahead
-/// enters the voxel first, so that walls seen along the scan would seem turned.) `position(point)`
-/// gives a point's coordinates; `size` in their unit, 0 keeps all; points that are not finite are
-/// dropped.
+/// Keeps one point of each voxel, in the order of the points. A fixed pseudo-random sequence
+/// decides which: the first point of a voxel is biased by its noise, and walls along the scan
+/// direction would appear rotated. `position(point)` returns the coordinates of a point; `size` in
+/// their unit, 0 keeps all points; points that are not finite are dropped.
 template <class Point, class Position>
 std::vector<Point> voxel_filter(const std::vector<Point>& points, double size,
                                 Position&& position) {
@@ -39,7 +39,7 @@ std::vector<Point> voxel_filter(const std::vector<Point>& points, double size,
     ++left[voxel.number];
   }
   for (std::uint32_t number = 0; number < left.size(); ++number) {
-    // The golden ratio spreads the numbers evenly over 32 bits, in which the product wraps round.
+    // Multiplicative hashing by the golden ratio spreads the numbers evenly over 32 bits.
     const std::uint32_t share = number * 2654435769u;
     left[number] = 1 + static_cast<std::uint32_t>(std::uint64_t{share} * left[number] >> 32);
   }
@@ -49,5 +49,8 @@ std::vector<Point> voxel_filter(const std::vector<Point>& points, double size,
     if (voxel_of[i] != kNone && --left[voxel_of[i]] == 0) kept.push_back(points[i]);
   return kept;
 }
+
+/// The sets of maps (kMapSets), each with one point per voxel of `size` m (0 keeps all points).
+Features voxel_filter(const Features& features, double size);
 
 }  // namespace lego_loam_sc

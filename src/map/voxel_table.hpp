@@ -11,12 +11,12 @@
 
 namespace lego_loam_sc {
 
-/// The cell of a grid that holds a point, packed into 63 bits: 21 signed bits for each axis.
+/// A grid cell packed into 63 bits: 21 signed bits per axis.
 using VoxelKey = std::uint64_t;
 
 constexpr std::int64_t kMaxCell = (1 << 20) - 1;
 
-/// A cell by its number along each axis, from -kMaxCell to kMaxCell.
+/// A grid cell by its index along each axis, from -kMaxCell to kMaxCell.
 using Cell = std::array<std::int64_t, 3>;
 
 constexpr VoxelKey pack_cell(std::int64_t x, std::int64_t y, std::int64_t z) {
@@ -36,8 +36,8 @@ constexpr Cell unpack_cell(VoxelKey key) {
   return {number(key >> 42), number(key >> 21), number(key)};
 }
 
-/// The cell of a point scaled to units of cells; nothing for a point out of the grid's range, whose
-/// outermost cells stay free, or not finite, which must never alias into it.
+/// The cell of a point in units of cells; nothing for a point that is not finite or outside the
+/// grid, so that it cannot alias into another cell. The outermost cells of the grid are not used.
 inline std::optional<Cell> cell_of(const Eigen::Vector3d& scaled) {
   Cell cell;
   for (int axis = 0; axis < 3; ++axis) {
@@ -50,15 +50,15 @@ inline std::optional<Cell> cell_of(const Eigen::Vector3d& scaled) {
   return cell;
 }
 
-/// The key of such a point's cell.
+/// The key of the cell of a point in units of cells.
 inline std::optional<VoxelKey> key_of(const Eigen::Vector3d& scaled) {
   const std::optional<Cell> cell = cell_of(scaled);
   if (!cell) return std::nullopt;
   return pack_cell(*cell);
 }
 
-/// A hash table from cells to values: open addressing, values in one array in the order of their
-/// insertion, which is the only order that it can be walked in.
+/// A hash table from cells to values with open addressing. Values lie in one array in order of
+/// insertion, the only order of iteration: results do not depend on the hash.
 template <class Value>
 class VoxelTable {
  public:
@@ -66,16 +66,16 @@ class VoxelTable {
   const std::vector<VoxelKey>& keys() const { return keys_; }
   const std::vector<Value>& values() const { return values_; }
 
-  /// Makes room for this many values.
+  /// Reserves memory for `count` values.
   void reserve(std::size_t count) {
-    std::size_t slots = kFewestSlots;
+    std::size_t slots = kMinSlots;
     while (slots < 2 * (count + 1)) slots *= 2;
     if (slots > slots_.size()) rebuild(slots);
     keys_.reserve(count);
     values_.reserve(count);
   }
 
-  /// The value of the cell, or null.
+  /// The value of a cell, or null.
   const Value* find(VoxelKey key) const {
     if (slots_.empty()) return nullptr;
     for (std::size_t s = first_slot(key);; s = (s + 1) & mask()) {
@@ -84,19 +84,19 @@ class VoxelTable {
     }
   }
 
-  /// Fetches what a look at the cell will need, while the caller does something else.
+  /// Prefetches the slot of a cell for a later find.
   void prefetch(VoxelKey key) const {
     if (!slots_.empty()) __builtin_prefetch(&slots_[first_slot(key)]);
   }
 
-  /// The second step, when the first is done: fetches the value.
+  /// Prefetches the value of a cell, once its slot has been prefetched.
   void prefetch_value(VoxelKey key) const {
     if (slots_.empty()) return;
     const Slot& slot = slots_[first_slot(key)];
     if (slot.index != kEmpty) __builtin_prefetch(&values_[slot.index]);
   }
 
-  /// The value of the cell and whether it was made by this call.
+  /// The value of a cell and whether this call inserted it.
   std::pair<Value&, bool> find_or_insert(VoxelKey key) {
     if (2 * (values_.size() + 1) > slots_.size()) grow();
     std::size_t s = first_slot(key);
@@ -108,7 +108,7 @@ class VoxelTable {
     return {values_.back(), true};
   }
 
-  /// Keeps the values of the cells for which keep(key) holds, in their order.
+  /// Keeps the values of the cells for which keep(key) is true, in their order.
   template <class Keep>
   void retain(Keep&& keep) {
     std::size_t kept = 0;
@@ -145,12 +145,12 @@ class VoxelTable {
     std::uint32_t index = kEmpty;
   };
   static constexpr std::uint32_t kEmpty = 0xffffffff;
-  static constexpr std::size_t kFewestSlots = 1024;
+  static constexpr std::size_t kMinSlots = 1024;
 
   std::size_t mask() const { return slots_.size() - 1; }
 
-  // Fibonacci hashing of the mixed key. The eight cells of a cube of 2 x 2 x 2 lie side by side:
-  // who looks at one looks at its neighbours next.
+  // Fibonacci hashing of the mixed key. The eight cells of a 2 x 2 x 2 cube are adjacent in memory,
+  // since they are read together.
   std::size_t first_slot(VoxelKey key) const {
     const std::size_t corner = (key & 1) | (key >> 20 & 2) | (key >> 40 & 4);
     VoxelKey cube = key & ~pack_cell(1, 1, 1);
@@ -160,7 +160,7 @@ class VoxelTable {
     return (cube << 3 | corner) & mask();
   }
 
-  void grow() { rebuild(slots_.empty() ? kFewestSlots : 2 * slots_.size()); }
+  void grow() { rebuild(slots_.empty() ? kMinSlots : 2 * slots_.size()); }
 
   void rebuild(std::size_t slots) {
     slots_.assign(slots, Slot{});

@@ -8,20 +8,21 @@
 namespace lego_loam_sc {
 namespace {
 
-// Scans share the map and its errors, so one by one they say little: this is the information, in
-// 1/rad^2, that a correction needs at first.
-const double kFirstInformation = 5.0 / std::pow(radians(0.015), 2);
-// The share of the information so far that slows further corrections. It is small since the map and
-// the past poses bend with the error and hide most of it: a correction is never the whole one.
-constexpr double kSlowing = 0.05;
-// A larger error is no worn sensor but a wrong table.
-const double kLargest = radians(1.0);
+// Information of the prior (zero bias), 1/rad^2. Scans share the map and its errors, so their
+// information is far from independent.
+const double kPriorInformation = 5.0 / std::pow(radians(0.015), 2);
+// Share of the accumulated information that damps further corrections. It is small, since the map
+// and the past poses bend with the error and hide most of it: each correction is only partial.
+constexpr double kDamping = 0.05;
+// A larger error means a wrong elevation table, not a worn sensor.
+const double kMaxBias = radians(1.0);
 
 }  // namespace
 
 void ElevationBias::add(std::span<const Correspondence> correspondences, const Pose& T_map_lidar,
                         double scale, const NormalEquations<12>& solution) {
-  // The bias as one more unknown beside pose and velocity, which are then eliminated.
+  // The bias is one more unknown besides pose and velocity, which are eliminated (Schur
+  // complement).
   const Eigen::Vector3d up = T_map_lidar.linear().col(2);
   Eigen::Matrix<double, 12, 1> mixed = Eigen::Matrix<double, 12, 1>::Zero();
   double information = 0.0;
@@ -35,7 +36,7 @@ void ElevationBias::add(std::span<const Correspondence> correspondences, const P
     row << c.direction, rotated.cross(c.direction);
     const double weight = robust_weight(c, d, scale);
     mixed.head<6>() += weight * derivative * row;
-    mixed.tail<6>() += weight * derivative * c.age * row;
+    mixed.tail<6>() += weight * derivative * c.time * row;
     information += weight * derivative * derivative;
     gradient += weight * derivative * d;
   }
@@ -44,8 +45,8 @@ void ElevationBias::add(std::span<const Correspondence> correspondences, const P
   gradient -= solution.g.dot(eliminated);
   if (!(information > 0.0)) return;
   information_ += information;
-  value_ -= gradient / (kFirstInformation + kSlowing * information_);
-  value_ = std::clamp(value_, -kLargest, kLargest);
+  value_ -= gradient / (kPriorInformation + kDamping * information_);
+  value_ = std::clamp(value_, -kMaxBias, kMaxBias);
 }
 
 }  // namespace lego_loam_sc

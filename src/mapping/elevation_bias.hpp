@@ -8,23 +8,22 @@
 
 namespace lego_loam_sc {
 
-/// Finds a common error of all elevation angles of the sensor while it drives.
+/// Estimates a common error of all elevation angles of the sensor during the run.
 ///
-/// An error of 0.2 degrees, as KITTI's scans have it, turns flat ground into a cone: too low by the
-/// error times the range. Matching two cones that are some way apart asks for a pitch, and the road
-/// bends by a degree in 100 m, loops or not. But a pitch does not fit well: a place of the map was
-/// seen from other ranges than the point that meets it now, and what the pose leaves of the
-/// residuals follows the difference of the two ranges.
+/// An error of 0.2 degrees, as in KITTI's scans, turns flat ground into a cone: its height is off
+/// by the error times the range. Matching cones of different poses yields a false pitch, and the
+/// trajectory bends by a degree per 100 m, even with loops. A pitch does not explain the residuals
+/// fully, though: a surface of the map was measured at other ranges than the point that is matched
+/// with it now, and the remaining residuals are proportional to the difference of the ranges.
 class ElevationBias {
  public:
-  /// Takes the residuals of a scan that was matched with the map. `solution`: normal equations of
-  /// all that determined the pose and the velocity of the sweep, there; `scale`: of the robust
-  /// kernel, sigmas.
+  /// Updates the estimate with the residuals of a matched scan. `solution`: the normal equations of
+  /// pose and velocity at the solution, priors included; `scale`: of the robust kernel, sigmas.
   void add(std::span<const Correspondence> correspondences, const Pose& T_map_lidar, double scale,
            const NormalEquations<12>& solution);
 
-  /// rad, to be added to the elevation angle of every point on top of what was added to the points
-  /// of the scans so far.
+  /// rad, the correction to add to the elevation angle of every point in addition to the correction
+  /// that the past scans already had.
   double value() const { return value_; }
 
   /// See core/state_archive.hpp.

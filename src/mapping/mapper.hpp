@@ -18,23 +18,23 @@ struct MapMatch {
   Pose T_map_lidar = Pose::Identity();  ///< at the scan's reference time
   Vector6 twist = Vector6::Zero();  ///< of the sensor at that time, m/s and rad/s in its own frame
   bool matched = false;             ///< false: the pose is the guess
-  int points = 0;                   ///< that were to be matched
-  int matches = 0;                  ///< of them found a surface
-  int agreeing = 0;                 ///< of these lie within 3 sigmas of it
+  int points = 0;                   ///< after the voxel filter
+  int matches = 0;                  ///< points with a correspondence
+  int inliers = 0;                  ///< correspondences with a residual below 3 sigmas
   int iterations = 0;
-  double rmse = 0.0;  ///< m, of the matched points with their robust weights
-  Matrix6 covariance =
-      Matrix6::Zero();  ///< of the perturbation of core/pose.hpp; the prior's if not matched
+  double rmse = 0.0;  ///< m, of the residuals with their robust weights
+  /// Of the perturbation of core/pose.hpp; the prior's when not matched.
+  Matrix6 covariance = Matrix6::Zero();
   Localizability localizability;
 };
 
-/// What is known of a scan's pose before it is matched.
+/// The initial guess of a scan's pose.
 struct ScanGuess {
-  Pose T_map_lidar = Pose::Identity();         ///< at the scan's reference time, by the odometry
-  Pose T_map_predicted = Pose::Identity();     ///< the same if the last motion goes on
+  Pose T_map_lidar = Pose::Identity();         ///< at the scan's reference time, from odometry
+  Pose T_map_predicted = Pose::Identity();     ///< the same at constant velocity
   Pose T_previous_current = Pose::Identity();  ///< motion since the previous scan
   double seconds = 0.1;                        ///< of that motion
-  bool measured = true;  ///< by the odometry; false: the pose is the prediction
+  bool measured = true;  ///< by odometry; false: T_map_lidar is the prediction
 };
 
 /// Scan-to-map refinement, paper 2.3 (4).
@@ -43,23 +43,21 @@ class Mapper {
   /// `range_noise` in m, one sigma; `row_spacing` in rad, see LocalMap.
   Mapper(const MappingSettings& settings, double range_noise, double row_spacing = 0.0);
 
-  /// Matches the large feature sets with the map. The motion within the sweep is estimated with the
-  /// pose; the motion since the previous scan is what is known of it beforehand.
+  /// Matches the large feature sets with the map. The velocity during the sweep is estimated with
+  /// the pose; its prior is the motion since the previous scan.
   MapMatch refine(const Features& features, const ScanGuess& guess);
 
-  /// rad; error of the elevation angles that the scans so far have shown, see ElevationBias. 0 when
-  /// it is not to be estimated.
+  /// rad; common error of all elevation angles, see ElevationBias. 0 when its estimation is off.
   double elevation_bias() const { return elevation_bias_.value(); }
 
-  /// rad; the same of each row beside what they have in common, see RowBias; empty when unknown.
+  /// rad; error of each row in addition to the common one, see RowBias; empty while unknown.
   const std::vector<double>& row_bias() const { return row_bias_.values(); }
 
   /// Adds features that are already de-skewed.
   void insert(const Features& deskewed, const Pose& T_map_lidar);
 
-  /// Adds those of the present scan, unless the sensor has hardly moved since the last ones: what
-  /// it sees while it stands adds nothing but the pattern of its beams. Forgets what is out of
-  /// reach.
+  /// Adds the present scan, unless the sensor has hardly moved since the last insertion: a
+  /// standing sensor would add only its beam pattern. Removes what lies beyond the map's radius.
   void add_scan(const Features& deskewed, const Pose& T_map_lidar);
 
   void clear();
@@ -79,7 +77,7 @@ class Mapper {
   LocalMap map_;
   ElevationBias elevation_bias_;
   RowBias row_bias_;
-  double spacing_;  // m, of the points that are matched
+  double spacing_;  // m, voxel size of the filter over the matched points
   std::optional<Eigen::Vector3d> last_insertion_;
   Eigen::Vector3d last_eviction_ = Eigen::Vector3d::Zero();
 };

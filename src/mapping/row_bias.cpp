@@ -9,11 +9,11 @@
 namespace lego_loam_sc {
 namespace {
 
-// 1/rad^2, that a correction needs at first: scans share the map and its errors, so one by one they
-// say little.
-const double kFirstInformation = 5.0 / std::pow(radians(0.015), 2);
-// A larger error is no worn beam but a wrong table.
-const double kLargest = radians(0.3);
+// Information of the prior (zero bias), 1/rad^2. Scans share the map and its errors, so their
+// information is far from independent.
+const double kPriorInformation = 5.0 / std::pow(radians(0.015), 2);
+// A larger error means a wrong elevation table, not a worn beam.
+const double kMaxBias = radians(0.3);
 
 }  // namespace
 
@@ -45,12 +45,12 @@ void RowBias::add(std::span<const Correspondence> correspondences, const Pose& T
   for (std::size_t row = 0; row < rows.size(); ++row) {
     information_[row] += rows[row].information;
     values_[row] -= (rows[row].gradient - common * rows[row].information) /
-                    (kFirstInformation + information_[row]);
+                    (kPriorInformation + information_[row]);
   }
   const double mean =
       std::inner_product(values_.begin(), values_.end(), information_.begin(), 0.0) /
       std::accumulate(information_.begin(), information_.end(), 0.0);
-  for (double& value : values_) value = std::clamp(value - mean, -kLargest, kLargest);
+  for (double& value : values_) value = std::clamp(value - mean, -kMaxBias, kMaxBias);
 }
 
 }  // namespace lego_loam_sc

@@ -6,8 +6,8 @@
 namespace lego_loam_sc {
 namespace {
 
-// A degenerate direction is tied to the guess with this sigma, m or rad.
-constexpr double kTied = 1e-3;
+// Sigma of fixed directions, m or rad, and smallest sigma of the velocity, m/s or rad/s.
+constexpr double kMinSigma = 1e-3;
 
 }  // namespace
 
@@ -18,20 +18,13 @@ PosePrior::PosePrior(const Pose& guess, double sigma_translation, double sigma_r
   information_.diagonal() << t, t, t, r, r, r;
 }
 
-void PosePrior::tie(const Localizability& l) {
-  constexpr double kInformation = 1.0 / (kTied * kTied);
-  for (int i = 0; i < l.degenerate_translations; ++i)
-    information_.topLeftCorner<3, 3>() +=
-        kInformation * l.translation_axes.col(i) * l.translation_axes.col(i).transpose();
-  for (int i = 0; i < l.degenerate_rotations; ++i)
-    information_.bottomRightCorner<3, 3>() +=
-        kInformation * l.rotation_axes.col(i) * l.rotation_axes.col(i).transpose();
+void PosePrior::fix_degenerate(const Localizability& localizability) {
+  constexpr double kInformation = 1.0 / (kMinSigma * kMinSigma);
+  information_ += degenerate_projection(localizability, kInformation, kInformation);
 }
 
 void PosePrior::add_to(NormalEquations<12>& equations, const Pose& at) const {
-  Vector6 deviation;
-  deviation << at.translation() - guess_.translation(),
-      log_so3(at.linear() * guess_.linear().transpose());
+  const Vector6 deviation = perturbation_between(guess_, at);
   equations.H.topLeftCorner<6, 6>() += information_;
   equations.g.head<6>() += information_ * deviation;
   equations.cost += 0.5 * deviation.dot(information_ * deviation);
@@ -40,9 +33,9 @@ void PosePrior::add_to(NormalEquations<12>& equations, const Pose& at) const {
 VelocityPrior::VelocityPrior(const Pose& T_previous_map, double seconds, double acceleration,
                              double angular_acceleration)
     : T_previous_map_(T_previous_map), seconds_(seconds) {
-  // The mean velocity of the motion is that of half a period ago.
-  const double t = std::max(0.5 * seconds * acceleration, kTied);
-  const double r = std::max(0.5 * seconds * angular_acceleration, kTied);
+  // The mean velocity of the motion is that at half a period ago.
+  const double t = std::max(0.5 * seconds * acceleration, kMinSigma);
+  const double r = std::max(0.5 * seconds * angular_acceleration, kMinSigma);
   information_ << Eigen::Vector3d::Constant(1.0 / (t * t)),
       Eigen::Vector3d::Constant(1.0 / (r * r));
 }

@@ -8,8 +8,8 @@
 namespace lego_loam_sc {
 namespace {
 
-// Points on each side along a row that take part in a plane.
-constexpr int kAlongRow = 2;
+// Neighbours on each side along a row that support a plane.
+constexpr int kRowNeighbours = 2;
 
 struct Plane {
   Eigen::Vector3d mean;
@@ -37,17 +37,17 @@ std::optional<Plane> fit_plane(const std::vector<Eigen::Vector3f>& points) {
   return Plane{origin + mean, eigen.eigenvectors().col(0), std::max(variance[0], 0.0)};
 }
 
-// The point `center` of the index and its neighbours along its row, as far as `reach`.
-void add_row_neighbours(const FeatureIndex& previous, int center, float reach,
+// Adds the point `center` and its neighbours along its row within `max_distance`.
+void add_row_neighbours(const FeatureIndex& previous, int center, float max_distance,
                         std::vector<Eigen::Vector3f>& points) {
   const std::vector<FeaturePoint>& all = previous.points();
   const int count = static_cast<int>(all.size());
-  const int first = std::max(center - kAlongRow, 0);
-  const int last = std::min(center + kAlongRow, count - 1);
+  const int first = std::max(center - kRowNeighbours, 0);
+  const int last = std::min(center + kRowNeighbours, count - 1);
   for (int i = first; i <= last; ++i) {
-    const bool near =
-        all[i].row == all[center].row && (all[i].position - all[center].position).norm() <= reach;
-    if (near) points.push_back(all[i].position);
+    const bool is_near = all[i].row == all[center].row &&
+                         (all[i].position - all[center].position).norm() <= max_distance;
+    if (is_near) points.push_back(all[i].position);
   }
 }
 
@@ -68,13 +68,13 @@ std::vector<Correspondence> associate_edges(const std::vector<FeaturePoint>& edg
     if (a < 0) continue;
     const FeaturePoint& first = previous.points()[a];
     int b = -1;
-    float reach = max_distance;
+    float nearest = max_distance;
     for (int gap = 1; gap <= settings.max_row_gap; ++gap) {
       for (const int row : {first.row - gap, first.row + gap}) {
-        const int other = previous.nearest_in_row(moved, row, reach);
+        const int other = previous.nearest_in_row(moved, row, nearest);
         if (other < 0) continue;
         b = other;
-        reach = (previous.points()[other].position - moved).norm();
+        nearest = (previous.points()[other].position - moved).norm();
       }
     }
     if (b < 0) continue;
@@ -113,7 +113,7 @@ std::vector<Correspondence> associate_planars(const std::vector<FeaturePoint>& p
         break;
       }
     }
-    if (support.size() == on_row) continue;  // one row alone is a line
+    if (support.size() == on_row) continue;  // points of a single row are collinear
     const std::optional<Plane> plane = fit_plane(support);
     if (!plane) continue;
     const double weight = 1.0 / (range_noise * range_noise + plane->variance);

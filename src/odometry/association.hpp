@@ -11,14 +11,14 @@
 namespace lego_loam_sc {
 
 /// Point-to-line correspondences: the line through the nearest edge point of the previous scan and
-/// the nearest one on another row close by.
+/// the nearest edge point on a neighbouring row.
 std::vector<Correspondence> associate_edges(const std::vector<FeaturePoint>& edges,
                                             const FeatureIndex& previous,
                                             const Pose& T_previous_current,
                                             const OdometrySettings& settings, double range_noise);
 
-/// Point-to-plane correspondences: the plane through the planar points of the previous scan round
-/// the nearest one, on its row and on rows close by.
+/// Point-to-plane correspondences: the plane through the planar points of the previous scan around
+/// the nearest one, on its row and on neighbouring rows.
 std::vector<Correspondence> associate_planars(const std::vector<FeaturePoint>& planars,
                                               const FeatureIndex& previous,
                                               const Pose& T_previous_current,

@@ -26,7 +26,7 @@ struct Adaptor {
 using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Adaptor>,
                                                  Adaptor, 3, std::uint32_t>;
 
-// A point of a row, sorted by azimuth: de-skewing moves points a little past each other.
+// A point of a row for sorting by azimuth, which de-skewing changes slightly.
 struct RowEntry {
   float azimuth;
   int index;
@@ -86,10 +86,10 @@ int FeatureIndex::nearest_in_row(const Eigen::Vector3f& query, int row, float ma
   const int count = impl_->row_begin[row + 1] - impl_->row_begin[row];
   if (count == 0) return -1;
 
-  // Outwards from the query's azimuth in both directions, until even a point straight across the
-  // azimuth difference would be farther than the best.
+  // Outwards from the query's azimuth in both directions, until the azimuth difference alone
+  // implies a distance beyond the best.
   const float azimuth = fast_atan2(query.y(), query.x());
-  const float across = std::sqrt(query.x() * query.x() + query.y() * query.y());
+  const float horizontal = std::sqrt(query.x() * query.x() + query.y() * query.y());
   const int start =
       static_cast<int>(std::lower_bound(begin, begin + count, RowEntry{azimuth, -1}) - begin);
   int best = -1;
@@ -103,9 +103,9 @@ int FeatureIndex::nearest_in_row(const Eigen::Vector3f& query, int row, float ma
     if (turn < 0.5f * std::numbers::pi_v<float>) {
       // The slack covers the error of fast_atan2; t - t^3 / 6 is a little less than sin(t).
       const float t = std::max(turn - 5e-5f, 0.0f);
-      const float bound = across * t * (1.0f - t * t / 6.0f);
+      const float bound = horizontal * t * (1.0f - t * t / 6.0f);
       if (bound * bound > best_squared) return false;
-    } else if (across * across > best_squared) {
+    } else if (horizontal * horizontal > best_squared) {
       return false;
     }
     const float squared = (points()[entry.index].position - query).squaredNorm();

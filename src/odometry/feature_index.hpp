@@ -12,7 +12,7 @@ namespace lego_loam_sc {
 /// within one row by azimuth.
 class FeatureIndex {
  public:
-  /// `points` in ascending order of row, de-skewed; the index keeps them.
+  /// `points` de-skewed, in ascending order of row.
   explicit FeatureIndex(std::vector<FeaturePoint> points);
   ~FeatureIndex();
   FeatureIndex(FeatureIndex&&) noexcept;
@@ -23,7 +23,7 @@ class FeatureIndex {
   /// Index of the point nearest to `query` within `max_distance` (m), or -1.
   int nearest(const Eigen::Vector3f& query, float max_distance) const;
 
-  /// The same among the points of one row.
+  /// The same among the points of row `row`.
   int nearest_in_row(const Eigen::Vector3f& query, int row, float max_distance) const;
 
  private:

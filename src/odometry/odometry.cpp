@@ -12,27 +12,24 @@
 namespace lego_loam_sc {
 namespace {
 
-// The kernel's scale in robust spreads of the residuals, and its limits in their sigmas.
-constexpr double kKernelSpreads = 2.0;
-constexpr double kMinScale = 2.0;
-constexpr double kMaxScale = 50.0;
+constexpr RobustKernel kKernel{.factor = 2.0, .min_scale = 2.0, .max_scale = 50.0};
 
-// Correspondences are searched anew until a solve moves the pose by less: 2 mm or 2 mrad. The
-// result is a guess for the mapper, which is finer.
-constexpr double kStill = 2e-3;
+// Association and solve are repeated until the pose moves by less: 2 mm or 2 mrad. The result is
+// an initial guess for the mapper, which is finer.
+constexpr double kPoseConvergence = 2e-3;
 
-// Robust sigma of the distances, m, above which two scans do not show the same place.
-constexpr double kMaxSpread = 0.3;
+// Robust sigma of the residuals, m, above which the two scans show different places.
+constexpr double kMaxSigma = 0.3;
 
 constexpr std::array<int, 3> kGroundUnknowns = {2, 3, 4};  // t_z, roll, pitch
 constexpr std::array<int, 3> kEdgeUnknowns = {0, 1, 5};    // t_x, t_y, yaw
 constexpr std::array<int, 6> kAllUnknowns = {0, 1, 2, 3, 4, 5};
 
-// Moves `pose` to the minimum over `unknowns`; the others stay as they are.
+// Moves `pose` to the minimum over `unknowns`; the others are held fixed.
 template <std::size_t N>
 LevenbergMarquardtResult solve(std::span<const Correspondence> correspondences,
                                const std::array<int, N>& unknowns, int max_iterations, Pose& pose) {
-  const double scale = robust_scale(correspondences, pose, kKernelSpreads, kMinScale, kMaxScale);
+  const double scale = robust_scale(correspondences, pose, kKernel);
   return levenberg_marquardt<N>(
       pose, max_iterations,
       [&](const Pose& at) {
@@ -45,36 +42,29 @@ LevenbergMarquardtResult solve(std::span<const Correspondence> correspondences,
       });
 }
 
-// Searches correspondences anew and solves until the pose stands still. `associate(pose)` returns
-// the correspondences, fewer than `needed` of them mean failure.
+// Alternates association and solve until the pose converges. `associate(pose)` returns the
+// correspondences; fewer than `min_matches` of them are a failure.
 template <std::size_t N, class Associate>
-bool refine(Associate&& associate, const std::array<int, N>& unknowns, int needed, int associations,
-            int iterations, Pose& pose, int& total_iterations) {
+bool refine(Associate&& associate, const std::array<int, N>& unknowns, int min_matches,
+            int associations, int iterations, Pose& pose, int& total_iterations) {
   for (int k = 0; k < associations; ++k) {
     const std::vector<Correspondence> correspondences = associate(pose);
-    if (static_cast<int>(correspondences.size()) < needed) return false;
+    if (static_cast<int>(correspondences.size()) < min_matches) return false;
     const auto result = solve(correspondences, unknowns, iterations, pose);
     total_iterations += result.iterations;
-    if (result.step < kStill) break;
+    if (result.step < kPoseConvergence) break;
   }
   return true;
 }
 
-// Directions that the features do not hold keep the guess: the motion goes on instead of freezing.
+// Degenerate directions keep the guess: there the solution follows the noise, which does not move.
 Pose keep_guess_where_degenerate(const Pose& solved, const Pose& guess, const Localizability& l) {
-  Eigen::Vector3d translation = solved.translation() - guess.translation();
-  Eigen::Vector3d rotation = log_so3(solved.linear() * guess.linear().transpose());
-  for (int i = 0; i < l.degenerate_translations; ++i)
-    translation -= l.translation_axes.col(i) * l.translation_axes.col(i).dot(translation);
-  for (int i = 0; i < l.degenerate_rotations; ++i)
-    rotation -= l.rotation_axes.col(i) * l.rotation_axes.col(i).dot(rotation);
-  Vector6 delta;
-  delta << translation, rotation;
-  return perturb(guess, delta);
+  const Vector6 delta = perturbation_between(guess, solved);
+  return perturb(guess, delta - degenerate_component(l, delta));
 }
 
-// At most `count` of the points, at equal steps.
-std::vector<FeaturePoint> evenly(const std::vector<FeaturePoint>& points, int count) {
+// At most `count` of the points, evenly spaced in their order.
+std::vector<FeaturePoint> subsample(const std::vector<FeaturePoint>& points, int count) {
   const auto wanted = static_cast<std::size_t>(count);
   if (points.size() <= wanted) return points;
   std::vector<FeaturePoint> taken(wanted);
@@ -92,13 +82,27 @@ std::vector<FeaturePoint> ground_of(const std::vector<FeaturePoint>& points) {
   return ground;
 }
 
-// Something is always near enough to be matched, even in a scan of another place; but then the
-// distances that remain are large.
-bool fits(const std::vector<Correspondence>& matched, Correspondence::Kind kind, const Pose& pose) {
+// Scans of different places yield correspondences too, but large residuals.
+bool has_small_residuals(const std::vector<Correspondence>& matched, Correspondence::Kind kind,
+                         const Pose& pose) {
   std::vector<Correspondence> of_kind;
   std::copy_if(matched.begin(), matched.end(), std::back_inserter(of_kind),
                [&](const Correspondence& c) { return c.kind == kind; });
-  return spread(of_kind, pose) < kMaxSpread;
+  return robust_sigma(of_kind, pose) < kMaxSigma;
+}
+
+// Accepts or rejects the solved pose by its correspondences and completes `motion`.
+void finish(const std::vector<Correspondence>& matched, const Pose& solved, const Pose& guess,
+            double min_strength, Motion& motion) {
+  for (const Correspondence& c : matched)
+    ++(c.kind == Correspondence::Kind::line ? motion.edges : motion.planars);
+  motion.solved = has_small_residuals(matched, Correspondence::Kind::line, solved) &&
+                  has_small_residuals(matched, Correspondence::Kind::plane, solved);
+  if (!motion.solved) return;
+  const double scale = robust_scale(matched, solved, kKernel);
+  motion.localizability = localizability(matched, solved, scale, min_strength);
+  motion.T_previous_current =
+      normalized(keep_guess_where_degenerate(solved, guess, motion.localizability));
 }
 
 }  // namespace
@@ -117,17 +121,17 @@ Motion Odometry::estimate(const Features& features, const Pose& guess, double se
   if (!previous_) return motion;
   const Previous& previous = *previous_;
 
-  const std::vector<FeaturePoint> edges = evenly(features.edges_sharp, settings_.max_points);
-  const std::vector<FeaturePoint> planars = evenly(features.planars_flat, settings_.max_points);
-  // The points of a sweep are moved to its middle with the motion as estimated so far.
+  const std::vector<FeaturePoint> edges = subsample(features.edges_sharp, settings_.max_points);
+  const std::vector<FeaturePoint> planars = subsample(features.planars_flat, settings_.max_points);
+  // Points are de-skewed with the current estimate of the motion.
   const auto edges_at = [&](const Pose& pose) {
     return associate_edges(deskew(edges, log_se3(pose) / seconds), previous.edges, pose, settings_,
                            range_noise_);
   };
   const bool on_ground = std::all_of(planars.begin(), planars.end(), is_ground);
-  std::optional<FeatureIndex> everywhere;
-  if (!on_ground) everywhere.emplace(previous.planars);
-  const FeatureIndex& previous_planars = everywhere ? *everywhere : previous.ground;
+  std::optional<FeatureIndex> all_planars;
+  if (!on_ground) all_planars.emplace(previous.planars);
+  const FeatureIndex& previous_planars = all_planars ? *all_planars : previous.ground;
   const auto planars_at = [&](const Pose& pose) {
     return associate_planars(deskew(planars, log_se3(pose) / seconds), previous_planars, pose,
                              settings_, range_noise_);
@@ -151,18 +155,7 @@ Motion Odometry::estimate(const Features& features, const Pose& guess, double se
     motion.solved = refine(all_at, kAllUnknowns, settings_.min_edges + settings_.min_planars,
                            settings_.associations, settings_.iterations, pose, motion.iterations);
   }
-  if (!motion.solved) return motion;
-
-  const std::vector<Correspondence> matched = all_at(pose);
-  for (const Correspondence& c : matched)
-    ++(c.kind == Correspondence::Kind::line ? motion.edges : motion.planars);
-  motion.solved = fits(matched, Correspondence::Kind::line, pose) &&
-                  fits(matched, Correspondence::Kind::plane, pose);
-  if (!motion.solved) return motion;
-  const double scale = robust_scale(matched, pose, kKernelSpreads, kMinScale, kMaxScale);
-  motion.localizability = localizability(matched, pose, scale, settings_.min_strength);
-  motion.T_previous_current =
-      normalized(keep_guess_where_degenerate(pose, guess, motion.localizability));
+  if (motion.solved) finish(all_at(pose), pose, guess, settings_.min_strength, motion);
   return motion;
 }
 

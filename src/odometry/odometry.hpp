@@ -15,7 +15,7 @@ namespace lego_loam_sc {
 /// Motion from the previous scan to the current one, between their reference times.
 struct Motion {
   Pose T_previous_current = Pose::Identity();
-  bool solved = false;  ///< false: the scans do not fit each other, the pose is the guess
+  bool solved = false;  ///< false: the scans do not match, the pose is the guess
   int edges = 0;        ///< correspondences of the last association
   int planars = 0;
   int iterations = 0;  ///< Levenberg-Marquardt steps of all solves
@@ -25,18 +25,18 @@ struct Motion {
 /// Scan-to-scan odometry, paper 2.3 (3): features of the current scan, F_e and F_p, against the
 /// large feature sets of the previous one, edges with edges and ground with ground (label
 /// matching), in two Levenberg-Marquardt steps: [t_z, roll, pitch] from planes, then [t_x, t_y,
-/// yaw] from edges. When F_p is not all ground, planes fix other unknowns too, and one joint solve
-/// takes the place of the two steps.
+/// yaw] from edges. When F_p holds more than ground, its planes constrain the other unknowns too,
+/// and one joint solve replaces the two steps.
 class Odometry {
  public:
   /// `range_noise` in m, one sigma.
   Odometry(const OdometrySettings& settings, double range_noise);
 
-  /// `guess` is the predicted motion and `seconds` the time since the previous scan; the points of
-  /// a sweep with times are de-skewed with the motion as it is being estimated.
+  /// `guess` is the predicted motion, `seconds` the time since the previous scan. Points with times
+  /// are de-skewed with the estimated motion in every iteration.
   Motion estimate(const Features& features, const Pose& guess, double seconds) const;
 
-  /// Makes `deskewed` the scan that the next one is matched with.
+  /// Makes `deskewed` the target of the next scan.
   void set_previous(const Features& deskewed);
 
   bool has_previous() const { return previous_.has_value(); }
@@ -58,8 +58,8 @@ class Odometry {
   // The large sets of the previous scan, de-skewed.
   struct Previous {
     FeatureIndex edges;
-    FeatureIndex ground;                // the planar points that are
-    std::vector<FeaturePoint> planars;  // ground and all else
+    FeatureIndex ground;                // planar points on the ground
+    std::vector<FeaturePoint> planars;  // all planar points
   };
 
   OdometrySettings settings_;

@@ -7,8 +7,9 @@
 namespace lego_loam_sc {
 namespace {
 
-// Farther points cost no more, so that the product of two of them is still a number.
-constexpr double kFurthest = 1e100;
+// Upper limit of the squared distance over the squared scale: the product of two costs stays
+// finite.
+constexpr double kMaxSquaredDistance = 1e100;
 
 using Matrix36 = Eigen::Matrix<double, 3, 6>;
 
@@ -19,14 +20,14 @@ Eigen::Vector3d residual(const Correspondence& c, const Eigen::Vector3d& transfo
   return c.kind == Correspondence::Kind::plane ? along : Eigen::Vector3d(offset - along);
 }
 
-// Of the absolute values of normally distributed numbers; reorders them.
-double robust_sigma(std::vector<double>& absolute) {
+// Sigma of normally distributed residuals from the median of their absolute values; reorders them.
+double sigma_from_median(std::vector<double>& absolute) {
   const auto middle = absolute.begin() + absolute.size() / 2;
   std::nth_element(absolute.begin(), middle, absolute.end());
   return 1.4826 * *middle;
 }
 
-// The sum of log(x) of numbers of at least 1, by far fewer logarithms than numbers.
+// Sums log(x) of numbers x >= 1. Logarithms are slow, so products of many numbers are taken first.
 class LogSum {
  public:
   void add(double x) {
@@ -42,9 +43,9 @@ class LogSum {
   double sum_ = 0.0;
 };
 
-// Gives J'J and J'r of one weighted distance to `add` and returns 1 + (sigmas / scale)^2, whose
-// logarithm is the cost. `rotated`: the point less the source's origin, in axes of the target;
-// `moved`: the point in the target frame.
+// Passes J'J and J'r of one weighted distance to `add` and returns 1 + (sigmas / scale)^2, whose
+// logarithm is the cost. `rotated` is the point relative to the origin of the source in axes of the
+// target, `moved` the point in the target frame.
 template <class Add>
 double linearise(const Correspondence& c, const Eigen::Vector3d& rotated,
                  const Eigen::Vector3d& moved, double scale, Add&& add) {
@@ -67,7 +68,7 @@ double linearise(const Correspondence& c, const Eigen::Vector3d& rotated,
     const double weight = robust_weight(c, std::sqrt(squared), scale);
     add(Matrix6((weight * rows.transpose()).lazyProduct(rows)), weight * rows.transpose() * e);
   }
-  return 1.0 + std::min(c.weight * squared / (scale * scale), kFurthest);
+  return 1.0 + std::min(c.weight * squared / (scale * scale), kMaxSquaredDistance);
 }
 
 }  // namespace
@@ -81,21 +82,21 @@ double robust_weight(const Correspondence& c, double distance, double scale) {
 }
 
 double robust_scale(std::span<const Correspondence> correspondences, const Pose& T_target_source,
-                    double factor, double minimum, double maximum) {
-  if (correspondences.empty()) return maximum;
+                    const RobustKernel& kernel) {
+  if (correspondences.empty()) return kernel.max_scale;
   std::vector<double> sigmas;
   sigmas.reserve(correspondences.size());
   for (const Correspondence& c : correspondences)
     sigmas.push_back(distance(c, T_target_source) * std::sqrt(c.weight));
-  return std::clamp(factor * robust_sigma(sigmas), minimum, maximum);
+  return std::clamp(kernel.factor * sigma_from_median(sigmas), kernel.min_scale, kernel.max_scale);
 }
 
-double spread(std::span<const Correspondence> correspondences, const Pose& T_target_source) {
+double robust_sigma(std::span<const Correspondence> correspondences, const Pose& T_target_source) {
   if (correspondences.empty()) return 0.0;
   std::vector<double> distances;
   distances.reserve(correspondences.size());
   for (const Correspondence& c : correspondences) distances.push_back(distance(c, T_target_source));
-  return robust_sigma(distances);
+  return sigma_from_median(distances);
 }
 
 NormalEquations<6> normal_equations(std::span<const Correspondence> correspondences,
@@ -119,19 +120,19 @@ NormalEquations<12> sweep_normal_equations(std::span<const Correspondence> corre
                                            const Vector6& velocity_change, double scale) {
   NormalEquations<12> sum;
   LogSum cost;
-  std::array<Matrix6, 3> H;  // by powers of the age
+  std::array<Matrix6, 3> H;  // by powers of the time
   H.fill(Matrix6::Zero());
   for (const Correspondence& c : correspondences) {
     const Eigen::Vector3d rotated = T_target_source.linear() * c.point;
     const Eigen::Vector3d moved =
         rotated + T_target_source.translation() +
-        c.age * (velocity_change.head<3>() + velocity_change.tail<3>().cross(rotated));
+        c.time * (velocity_change.head<3>() + velocity_change.tail<3>().cross(rotated));
     cost.add(linearise(c, rotated, moved, scale, [&](const auto& JtJ, const Vector6& Jtr) {
       H[0] += JtJ;
-      H[1] += c.age * JtJ;
-      H[2] += c.age * c.age * JtJ;
+      H[1] += c.time * JtJ;
+      H[2] += c.time * c.time * JtJ;
       sum.g.head<6>() += Jtr;
-      sum.g.tail<6>() += c.age * Jtr;
+      sum.g.tail<6>() += c.time * Jtr;
     }));
   }
   sum.H << H[0], H[1], H[1], H[2];

@@ -8,7 +8,7 @@
 
 namespace lego_loam_sc {
 
-/// Cost and its second-order model at one state: cost(delta) ~ cost + g'delta + delta'H delta / 2.
+/// Cost and its Gauss-Newton model at one state: cost(delta) ~ cost + g'delta + delta'H delta / 2.
 template <int N>
 struct NormalEquations {
   Eigen::Matrix<double, N, N> H = Eigen::Matrix<double, N, N>::Zero();
@@ -16,16 +16,16 @@ struct NormalEquations {
   double cost = 0.0;
 };
 
-/// Steps smaller than this end an optimisation: 0.1 mm and 0.1 mrad.
-constexpr double kConvergedStep = 1e-4;
+/// A step below this ends an optimisation: 0.1 mm and 0.1 mrad.
+constexpr double kStepConvergence = 1e-4;
 
 struct LevenbergMarquardtResult {
   int iterations = 0;
-  double step = 0.0;  ///< largest component of the sum of all accepted steps
+  double step = 0.0;  ///< largest component of the sum of the accepted steps
 };
 
 /// Minimises by Levenberg-Marquardt with full steps and Marquardt's damping of the diagonal.
-/// `evaluate(state)` returns NormalEquations<N>; `apply(state, delta)` the changed state.
+/// `evaluate(state)` returns NormalEquations<N>, `apply(state, delta)` the state moved by `delta`.
 template <int N, class State, class Evaluate, class Apply>
 LevenbergMarquardtResult levenberg_marquardt(State& state, int max_iterations, Evaluate&& evaluate,
                                              Apply&& apply) {
@@ -38,7 +38,8 @@ LevenbergMarquardtResult levenberg_marquardt(State& state, int max_iterations, E
     ++result.iterations;
     Eigen::Matrix<double, N, N> damped = here.H;
     damped.diagonal() += damping * here.H.diagonal();
-    damped.diagonal().array() += 1e-9;  // a direction without any constraint stays where it is
+    damped.diagonal().array() +=
+        1e-9;  // keeps the system regular: unconstrained directions do not move
     const Vector delta = damped.ldlt().solve(-here.g);
     if (!delta.allFinite()) break;
 
@@ -54,7 +55,7 @@ LevenbergMarquardtResult levenberg_marquardt(State& state, int max_iterations, E
     } else {
       damping *= 10.0;
     }
-    if (delta.cwiseAbs().maxCoeff() < kConvergedStep || damping > 1e9) break;
+    if (delta.cwiseAbs().maxCoeff() < kStepConvergence || damping > 1e9) break;
   }
   result.step = total.cwiseAbs().maxCoeff();
   return result;

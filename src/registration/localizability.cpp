@@ -8,15 +8,15 @@
 namespace lego_loam_sc {
 namespace {
 
-// Cosine below which a constraint counts as lying across a direction: 78 degrees.
-constexpr double kAcross = 0.2;
+// A constraint at more than 78 degrees to a direction is noise along it.
+constexpr double kMinCosine = 0.2;
 
-// Squared cosine, or nothing for what lies across.
 double contribution(double squared_cosine) {
-  return squared_cosine < kAcross * kAcross ? 0.0 : squared_cosine;
+  return squared_cosine < kMinCosine * kMinCosine ? 0.0 : squared_cosine;
 }
 
-// The part of unit direction `v` that the constraint sees: along a normal, off a line, all of it.
+// The constrained part of the unit direction `v`: along the normal of a plane, across a line, all
+// of it for a point.
 double squared_cosine(const Correspondence& c, const Eigen::Vector3d& v) {
   const double along = c.direction.dot(v);
   return c.kind == Correspondence::Kind::plane ? along * along : 1.0 - along * along;
@@ -55,7 +55,7 @@ Localizability localizability(std::span<const Correspondence> correspondences,
     for (int i = 0; i < 3; ++i) {
       result.translation[i] +=
           weight * contribution(squared_cosine(c, result.translation_axes.col(i)));
-      // A turn about the axis moves the point along axis x arm; a short one close to the axis.
+      // A rotation about the axis moves the point along axis x arm, little when close to the axis.
       const Eigen::Vector3d movement = result.rotation_axes.col(i).cross(arm);
       const double length = movement.norm();
       if (length > 0.0)
@@ -69,6 +69,28 @@ Localizability localizability(std::span<const Correspondence> correspondences,
       static_cast<int>((result.translation.array() < min_strength).count());
   result.degenerate_rotations = static_cast<int>((result.rotation.array() < min_strength).count());
   return result;
+}
+
+Vector6 degenerate_component(const Localizability& l, const Vector6& delta) {
+  Vector6 component = Vector6::Zero();
+  for (int i = 0; i < l.degenerate_translations; ++i)
+    component.head<3>() +=
+        l.translation_axes.col(i) * l.translation_axes.col(i).dot(delta.head<3>());
+  for (int i = 0; i < l.degenerate_rotations; ++i)
+    component.tail<3>() += l.rotation_axes.col(i) * l.rotation_axes.col(i).dot(delta.tail<3>());
+  return component;
+}
+
+Matrix6 degenerate_projection(const Localizability& l, double translation_weight,
+                              double rotation_weight) {
+  Matrix6 projection = Matrix6::Zero();
+  for (int i = 0; i < l.degenerate_translations; ++i)
+    projection.topLeftCorner<3, 3>() +=
+        translation_weight * l.translation_axes.col(i) * l.translation_axes.col(i).transpose();
+  for (int i = 0; i < l.degenerate_rotations; ++i)
+    projection.bottomRightCorner<3, 3>() +=
+        rotation_weight * l.rotation_axes.col(i) * l.rotation_axes.col(i).transpose();
+  return projection;
 }
 
 }  // namespace lego_loam_sc

@@ -9,17 +9,17 @@
 
 namespace lego_loam_sc {
 
-/// How well each direction of a pose is held by the correspondences of a match. Rotation and
-/// translation are judged apart, because their units differ. The strength of a direction is the
-/// number of whole constraints along it, each counted by the square of the cosine between its
-/// normal and the direction; those nearly across the direction do not count, because what they
-/// say along it is the noise of their normals (X-ICP, T-RO 2023, section IV).
+/// How well the correspondences of a match constrain each direction of the pose. Rotation and
+/// translation are analysed separately, because their units differ. The strength of a direction is
+/// the number of constraints along it, each weighted by the squared cosine between its normal and
+/// the direction. Constraints almost perpendicular to the direction do not count: what they say
+/// about it is the noise of their normals (X-ICP, T-RO 2023, section IV).
 struct Localizability {
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< strength along each axis
   Eigen::Vector3d rotation = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d translation_axes = Eigen::Matrix3d::Identity();  ///< columns, target frame;
-  Eigen::Matrix3d rotation_axes = Eigen::Matrix3d::Identity();     ///< the weakest comes first
-  int degenerate_translations = 0;  ///< the first so many axes are degenerate
+  Eigen::Matrix3d translation_axes = Eigen::Matrix3d::Identity();  ///< columns, target frame,
+  Eigen::Matrix3d rotation_axes = Eigen::Matrix3d::Identity();     ///< weakest first
+  int degenerate_translations = 0;  ///< number of degenerate axes, which are the first ones
   int degenerate_rotations = 0;
 
   bool degenerate() const { return degenerate_translations + degenerate_rotations > 0; }
@@ -29,5 +29,13 @@ struct Localizability {
 /// robust kernel; rotation is about the origin of the source frame.
 Localizability localizability(std::span<const Correspondence> correspondences,
                               const Pose& T_target_source, double scale, double min_strength);
+
+/// The component of a perturbation (translation first) along the degenerate directions.
+Vector6 degenerate_component(const Localizability& localizability, const Vector6& delta);
+
+/// The projection matrix onto the degenerate directions, with its translation and rotation blocks
+/// multiplied by these weights.
+Matrix6 degenerate_projection(const Localizability& localizability, double translation_weight,
+                              double rotation_weight);
 
 }  // namespace lego_loam_sc

@@ -11,13 +11,13 @@
 namespace lego_loam_sc {
 namespace {
 
-// Columns that a horizontal pair may be apart: one empty pixel in between breaks no surface.
+// Largest column difference of neighbours in a row: one empty pixel does not split a surface.
 constexpr int kMaxColumnStep = 2;
 
-// Neighbours along a row that are one object: the sets that columns join are made of these instead
-// of points, because there are ten times fewer of them.
+// Runs of connected neighbours along a row. Columns join runs instead of points, because there are
+// ten times fewer of them.
 struct Runs {
-  std::vector<std::int32_t> of_point;  // -1 on the ground
+  std::vector<std::int32_t> of_point;  // run of each point, -1 on the ground
   std::vector<std::int32_t> row;
   std::vector<std::int32_t> points;
 
@@ -51,8 +51,8 @@ class UnionFind {
 };
 
 // beta > limit for two ranges whose beams are alpha apart:
-// beta = atan2(d2 sin alpha, d1 - d2 cos alpha) with d1 >= d2. `slack` forgives range noise, which
-// otherwise breaks up surfaces whose neighbours are close together.
+// beta = atan2(d2 sin alpha, d1 - d2 cos alpha) with d1 >= d2. `slack` (m) tolerates range noise,
+// which would split surfaces whose neighbours are close together.
 class SameObject {
  public:
   SameObject(double alpha, double limit_tangent, double slack)
@@ -71,7 +71,7 @@ class SameObject {
   float sine_, cosine_, tangent_, slack_;
 };
 
-// Whether two neighbours in a row, some columns apart, are one object.
+// Whether two neighbours in a row, `gap` columns apart, belong to one object.
 class SameInRow {
  public:
   SameInRow(int columns, double limit_tangent, double slack) {
@@ -92,7 +92,7 @@ Runs make_runs(const RangeImage& image, const std::vector<Label>& label, const S
   Runs runs;
   runs.of_point.resize(image.size());
   for (int row = 0; row < image.rows; ++row) {
-    std::int32_t run = -1;  // that the point before belongs to
+    std::int32_t run = -1;  // of the previous point
     for (std::uint32_t i = image.row_begin[row]; i < image.row_begin[row + 1]; ++i) {
       if (label[i] == Label::ground) {
         run = -1;
@@ -108,7 +108,7 @@ Runs make_runs(const RangeImage& image, const std::vector<Label>& label, const S
   return runs;
 }
 
-// A row goes on from its last column to its first.
+// The last column of a row is the neighbour of the first.
 void join_seams(const RangeImage& image, const SameInRow& same, const Runs& runs, UnionFind& sets) {
   for (int row = 0; row < image.rows; ++row) {
     const std::uint32_t first = image.row_begin[row];
@@ -126,7 +126,7 @@ void join_columns(const RangeImage& image, const SensorModel& sensor, const Runs
   for (int row = 0; row + 1 < image.rows; ++row) {
     const double alpha = radians(sensor.elevation_deg[row + 1] - sensor.elevation_deg[row]);
     const SameObject same(alpha, limit_tangent, slack);
-    // Most pairs lie between the same two runs as the pair before.
+    // Most pairs join the same two runs as the previous pair.
     std::int32_t joined_lower = -1;
     std::int32_t joined_upper = -1;
     for (int column = 0; column < image.columns; ++column) {
@@ -181,7 +181,7 @@ int mark_clusters(const RangeImage& image, const SensorModel& sensor,
     const bool large = e.points >= settings.cluster_min_points;
     const bool thin =
         e.points >= settings.thin_cluster_min_points && e.rows >= settings.thin_cluster_min_rows;
-    // A root is the smallest index of its cluster, hence numbered before its members.
+    // The root has the smallest index of its cluster, so it is numbered before its members.
     if (large || thin) cluster_of[run] = run == root ? clusters++ : cluster_of[root];
   }
 

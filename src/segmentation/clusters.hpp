@@ -11,10 +11,10 @@
 
 namespace lego_loam_sc {
 
-/// Image segmentation of the points that are not ground: neighbours in a row or a column are one
-/// object when the line through them makes an angle beta above the limit with the farther beam
-/// (Bogoslavskyi and Stachniss, 2016). Sets `segment` on the points of clusters that are large
-/// enough, or thin and tall, and their number in `cluster`; returns the count of such clusters.
+/// Clusters the points that are not ground: neighbours in a row or a column belong to one object
+/// when the line through them makes an angle beta above the limit with the farther beam
+/// (Bogoslavskyi and Stachniss, 2016). Points of clusters that are large enough, or thin and tall,
+/// get the label `segment` and the cluster's number in `cluster`. Returns the number of clusters.
 int mark_clusters(const RangeImage& image, const SensorModel& sensor,
                   const SegmentationSettings& settings, std::vector<Label>& label,
                   std::vector<std::int32_t>& cluster);

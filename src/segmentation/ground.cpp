@@ -10,12 +10,12 @@
 namespace lego_loam_sc {
 namespace {
 
-// How fast the allowed height difference grows with the distance between two ground points.
+// Growth of the height tolerance with the distance between two ground points.
 constexpr float kHeightPerMetre = 0.05f;
 
 struct LevelPoint {
-  float across;  // horizontal distance from the sensor, m
-  float z;       // height above the sensor, m
+  float distance;  // horizontal, from the sensor, m
+  float z;         // height above the sensor, m
 };
 
 LevelPoint level_point(const Eigen::Vector3f& p) {
@@ -23,10 +23,10 @@ LevelPoint level_point(const Eigen::Vector3f& p) {
 }
 
 bool is_level(const LevelPoint& a, const LevelPoint& b, float max_tangent) {
-  return std::abs(b.z - a.z) <= max_tangent * std::abs(b.across - a.across);
+  return std::abs(b.z - a.z) <= max_tangent * std::abs(b.distance - a.distance);
 }
 
-// The rows whose beams can see the ground, from the one that looks down most.
+// The rows whose beams can hit the ground, the steepest downward beam first.
 class GroundRows {
  public:
   GroundRows(const SensorModel& sensor, const SegmentationSettings& settings)
@@ -42,9 +42,9 @@ class GroundRows {
   int count() const { return count_; }
   int operator[](int k) const { return upside_down_ ? rows_ - 1 - k : k; }
 
-  // The beam of a tilted sensor looks up on one side and down on the other.
+  // A beam of a tilted sensor points up on one side and down on the other.
   bool may_be_ground(const LevelPoint& p) const {
-    return !tilted_ || p.z <= max_tangent_ * p.across;
+    return !tilted_ || p.z <= max_tangent_ * p.distance;
   }
 
  private:
@@ -55,7 +55,7 @@ class GroundRows {
   int count_;
 };
 
-// Other points in the pixel of a ground point are ground when they lie at about its range.
+// Further points in the pixel of a ground point are ground when range and height agree.
 void mark_pixel(const RangeImage& image, std::int32_t nearest, float tolerance,
                 std::vector<Label>& label) {
   label[nearest] = Label::ground;
@@ -69,9 +69,9 @@ void mark_pixel(const RangeImage& image, std::int32_t nearest, float tolerance,
   for (std::int32_t k = nearest - 1; k >= 0 && same(k); --k) label[k] = Label::ground;
 }
 
-// What a column knows after the rows below.
+// State of a column after the rows below.
 struct Column {
-  LevelPoint ground;  // the last ground point; at first the point below the sensor
+  LevelPoint ground;  // the last ground point; initially the point below the sensor
   LevelPoint previous{};
   std::int32_t previous_index = -1;
   int previous_row = 0;
@@ -86,7 +86,7 @@ void mark_ground(const RangeImage& image, const SensorModel& sensor, double sens
   const auto tolerance = static_cast<float>(settings.ground_height_tolerance);
   const GroundRows rows(sensor, settings);
 
-  // All columns climb together, because the image lies in memory row by row.
+  // Row by row over all columns at once, which is the memory order of the image.
   Column start;
   start.ground = {0.0f, -static_cast<float>(sensor_height)};
   start.ground_known = sensor_height > 0.0;
@@ -103,7 +103,8 @@ void mark_ground(const RangeImage& image, const SensorModel& sensor, double sens
           column.previous_index >= 0 && row - column.previous_row <= settings.ground_max_row_gap;
       if (neighbours && is_level(previous, point, max_tangent)) {
         const float allowed =
-            tolerance + kHeightPerMetre * std::max(previous.across - column.ground.across, 0.0f);
+            tolerance +
+            kHeightPerMetre * std::max(previous.distance - column.ground.distance, 0.0f);
         const bool continues = column.ground_known
                                    ? std::abs(previous.z - column.ground.z) <= allowed
                                    : previous.z < 0.0f;
@@ -123,10 +124,10 @@ void mark_ground(const RangeImage& image, const SensorModel& sensor, double sens
 
 std::optional<double> estimate_sensor_height(const RangeImage& image, const SensorModel& sensor,
                                              const SegmentationSettings& settings) {
-  constexpr float kReach = 15.0f;  // m round the vehicle
-  constexpr float kBin = 0.1f;     // m
-  constexpr int kBins = 100;       // down to 10 m below the sensor
-  constexpr int kEnough = 100;     // points in the fullest bin
+  constexpr float kRadius = 15.0f;  // m round the vehicle
+  constexpr float kBin = 0.1f;      // m
+  constexpr int kBins = 100;        // down to 10 m below the sensor
+  constexpr int kMinPoints = 100;   // in the fullest bin
   const auto max_tangent = static_cast<float>(std::tan(radians(settings.ground_slope_deg)));
   const GroundRows rows(sensor, settings);
 
@@ -139,7 +140,7 @@ std::optional<double> estimate_sensor_height(const RangeImage& image, const Sens
       if (below < 0 || index < 0) continue;
       const LevelPoint a = level_point(image.points[below]);
       const LevelPoint b = level_point(image.points[index]);
-      if (b.across > kReach || b.z >= 0.0f || !is_level(a, b, max_tangent)) continue;
+      if (b.distance > kRadius || b.z >= 0.0f || !is_level(a, b, max_tangent)) continue;
       const int bin = static_cast<int>(-b.z / kBin);
       if (bin >= kBins) continue;
       ++count[bin];
@@ -147,7 +148,7 @@ std::optional<double> estimate_sensor_height(const RangeImage& image, const Sens
     }
   }
   const int best = static_cast<int>(std::max_element(count.begin(), count.end()) - count.begin());
-  if (count[best] < kEnough) return std::nullopt;
+  if (count[best] < kMinPoints) return std::nullopt;
   // The peak may straddle two bins.
   double sum = 0.0;
   int points = 0;

@@ -16,48 +16,50 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kReach = 15.0;  // m round the sensor
-constexpr std::size_t kMostPoints = 3000;
-constexpr int kTrials = 2000;          // planes through three points
-constexpr double kOnPlane = 0.1;       // m
-constexpr double kBeyond = 0.4;        // m below the ground there is nothing
-constexpr double kMostBeyond = 0.03;   // but stray points: their share
-constexpr double kLeastSupport = 0.1;  // share of the points on the ground
-constexpr double kLeastTiltDeg = 5.0;
-constexpr double kMostTiltDeg = 60.0;
-// How many times the points of a level plane another one needs to count.
-constexpr double kClearlyMore = 1.5;
-constexpr double kMuchMore = 5.0;
+constexpr double kRadius = 15.0;  // m round the sensor
+constexpr std::size_t kMaxPoints = 3000;
+constexpr int kTrials = 2000;            // RANSAC, planes through three points
+constexpr double kInlierDistance = 0.1;  // m
+constexpr double kBehindDistance = 0.4;  // m below the ground, where no surface can be seen
+constexpr double kMaxShareBehind = 0.03;
+constexpr double kMinSupport = 0.1;  // share of the points on the ground
+constexpr double kMinTiltDeg = 5.0;
+constexpr double kMaxTiltDeg = 60.0;
+// A tilted plane needs this many times the support of the level one, one above the sensor this many
+// times that of the best below.
+constexpr double kTiltedSupport = 1.5;
+constexpr double kAboveSupport = 5.0;
 
 // n.p = -height: `up` points from the plane to the sensor.
 struct Plane {
   Vector3d up = Vector3d::Zero();
   double height = 0.0;
-  std::size_t support = 0;  // points on it, see below
+  std::size_t support = 0;  // see count_support
 };
 
 std::vector<Vector3d> points_near(const RangeImage& image) {
   std::vector<Vector3d> near;
   for (std::size_t i = 0; i < image.size(); ++i)
-    if (image.range[i] < kReach) near.emplace_back(image.points[i].cast<double>());
+    if (image.range[i] < kRadius) near.emplace_back(image.points[i].cast<double>());
   std::vector<Vector3d> some;
-  const std::size_t stride = near.size() / kMostPoints + 1;
+  const std::size_t stride = near.size() / kMaxPoints + 1;
   for (std::size_t i = 0; i < near.size(); i += stride) some.push_back(near[i]);
   return some;
 }
 
-// Counts the points on the plane; none when too many lie beyond it. A plane that only cuts through
-// walls has as many beside it, layer for layer: these are taken off.
+// Sets the support of a plane: its inliers minus those expected of a plane that merely cuts through
+// walls, which has as many points in the layers beside it. None when too many points lie behind.
 void count_support(Plane& plane, const std::vector<Vector3d>& points) {
-  std::size_t on = 0, beside = 0, beyond = 0;
+  std::size_t inliers = 0, beside = 0, behind = 0;
   for (const Vector3d& p : points) {
     const double above = plane.up.dot(p) + plane.height;
-    on += std::abs(above) < kOnPlane;
-    beside += std::abs(above) >= kOnPlane && std::abs(above) < 3.0 * kOnPlane;
-    beyond += above < -kBeyond;
+    inliers += std::abs(above) < kInlierDistance;
+    beside += std::abs(above) >= kInlierDistance && std::abs(above) < 3.0 * kInlierDistance;
+    behind += above < -kBehindDistance;
   }
-  const bool open = static_cast<double>(beyond) > kMostBeyond * static_cast<double>(points.size());
-  plane.support = open || on < beside / 2 ? 0 : on - beside / 2;
+  const bool open =
+      static_cast<double>(behind) > kMaxShareBehind * static_cast<double>(points.size());
+  plane.support = open || inliers < beside / 2 ? 0 : inliers - beside / 2;
 }
 
 std::optional<Plane> plane_through(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
@@ -73,13 +75,13 @@ std::optional<Plane> plane_through(const Vector3d& a, const Vector3d& b, const V
   return plane;
 }
 
-// Least squares through the points on the plane.
+// Least-squares plane through the inliers.
 Plane refined(Plane plane, const std::vector<Vector3d>& points) {
   Vector3d mean = Vector3d::Zero();
   Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
   double count = 0.0;
   for (const Vector3d& p : points) {
-    if (std::abs(plane.up.dot(p) + plane.height) >= kOnPlane) continue;
+    if (std::abs(plane.up.dot(p) + plane.height) >= kInlierDistance) continue;
     mean += p;
     square += p * p.transpose();
     ++count;
@@ -94,44 +96,44 @@ Plane refined(Plane plane, const std::vector<Vector3d>& points) {
   return plane;
 }
 
-// The best ground of each kind.
-struct Grounds {
+// The best ground plane of each kind.
+struct GroundPlanes {
   Plane level, tilted, above;
 };
 
-Grounds find_grounds(const std::vector<Vector3d>& points) {
-  const double least_level = std::cos(radians(kLeastTiltDeg));
-  const double least_tilted = std::cos(radians(kMostTiltDeg));
+GroundPlanes find_ground_planes(const std::vector<Vector3d>& points) {
+  const double min_cosine_level = std::cos(radians(kMinTiltDeg));
+  const double min_cosine_tilted = std::cos(radians(kMaxTiltDeg));
   std::mt19937 random(1);
-  const auto any = [&]() -> const Vector3d& { return points[random() % points.size()]; };
-  Grounds grounds;
+  const auto random_point = [&]() -> const Vector3d& { return points[random() % points.size()]; };
+  GroundPlanes planes;
   const auto keep_better = [](Plane& best, const Plane& plane) {
     if (plane.support > best.support) best = plane;
   };
   for (int trial = 0; trial < kTrials; ++trial) {
-    const Vector3d &a = any(), &b = any(), &c = any();
+    const Vector3d &a = random_point(), &b = random_point(), &c = random_point();
     std::optional<Plane> plane = plane_through(a, b, c);
-    if (!plane || std::abs(plane->up.z()) < least_tilted) continue;
+    if (!plane || std::abs(plane->up.z()) < min_cosine_tilted) continue;
     count_support(*plane, points);
     if (plane->up.z() < 0.0)
-      keep_better(grounds.above, *plane);
+      keep_better(planes.above, *plane);
     else
-      keep_better(plane->up.z() > least_level ? grounds.level : grounds.tilted, *plane);
+      keep_better(plane->up.z() > min_cosine_level ? planes.level : planes.tilted, *plane);
   }
-  return grounds;
+  return planes;
 }
 
 std::optional<Plane> find_tilted_ground(const RangeImage& image) {
   const std::vector<Vector3d> points = points_near(image);
   if (points.size() < 100) return std::nullopt;
-  const Grounds grounds = find_grounds(points);
+  const GroundPlanes planes = find_ground_planes(points);
   const auto support_of = [](const Plane& plane) { return static_cast<double>(plane.support); };
-  Plane best = grounds.level;
-  if (support_of(grounds.tilted) > kClearlyMore * support_of(grounds.level)) best = grounds.tilted;
-  if (support_of(grounds.above) > kMuchMore * support_of(best)) best = grounds.above;
-  if (support_of(best) < kLeastSupport * static_cast<double>(points.size())) return std::nullopt;
+  Plane best = planes.level;
+  if (support_of(planes.tilted) > kTiltedSupport * support_of(planes.level)) best = planes.tilted;
+  if (support_of(planes.above) > kAboveSupport * support_of(best)) best = planes.above;
+  if (support_of(best) < kMinSupport * static_cast<double>(points.size())) return std::nullopt;
   best = refined(refined(best, points), points);
-  if (best.up.z() > std::cos(radians(kLeastTiltDeg))) return std::nullopt;
+  if (best.up.z() > std::cos(radians(kMinTiltDeg))) return std::nullopt;
   return best;
 }
 

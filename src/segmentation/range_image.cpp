@@ -40,13 +40,12 @@ std::vector<float> azimuths(const Scan& scan) {
   return azimuth;
 }
 
-// Adds a small angle to the elevation of the points of a row, which keep their range. Elevation
-// bias of KITTI's scans: see docs/sensors.md. All points of a row lie at nearly the row's own
-// elevation: with that a point takes no root and no division, and is off by a hundred thousandth of
-// its range.
-class Raise {
+// Adds a small angle to the elevation of the points of a row at constant range (elevation bias, see
+// docs/sensors.md). Using the nominal elevation of the row instead of the point's own saves root
+// and division; the error is 1e-5 of the range.
+class ElevationCorrection {
  public:
-  Raise(double elevation, double angle)
+  ElevationCorrection(double elevation, double angle)
       : along_(static_cast<float>(std::cos(elevation + angle) / std::cos(elevation))),
         up_(static_cast<float>(std::sin(elevation + angle) - std::sin(elevation))) {}
 
@@ -59,7 +58,7 @@ class Raise {
   float up_;
 };
 
-// Seconds between the start of the sweep and the time when the sensor looked at `azimuth`.
+// Seconds from the start of the sweep until the sensor measures at `azimuth`.
 float time_of_azimuth(float azimuth, const SensorModel& sensor) {
   const auto start = static_cast<float>(radians(sensor.start_azimuth_deg));
   const float turned = sensor.clockwise ? start - azimuth : azimuth - start;
@@ -67,8 +66,8 @@ float time_of_azimuth(float azimuth, const SensorModel& sensor) {
   return (turns - std::floor(turns)) * static_cast<float>(sensor.period);
 }
 
-// The column of each point, kNone for points that are left out. A point exactly behind the sensor
-// is at -pi and in the first column.
+// The column of each point, kNone for dropped points. A point exactly behind the sensor has azimuth
+// -pi and lies in the first column.
 constexpr std::uint16_t kNone = 0xffff;
 std::vector<std::uint16_t> columns_of_points(const std::vector<std::uint8_t>& usable,
                                              const std::vector<std::int16_t>& row, int columns,
@@ -94,8 +93,8 @@ struct Direction {
   }
 };
 
-// A sensor turns one way: but for where its sweep begins and a few points that changed places, the
-// directions of a row are in order already, or in the opposite one.
+// The sensor turns one way, so apart from the start of the sweep and a few swapped points a row is
+// already sorted in ascending or descending order.
 void sort_row(std::span<Direction> row) {
   if (row.size() < 2) return;
   std::size_t falling = 0;
@@ -105,7 +104,7 @@ void sort_row(std::span<Direction> row) {
     return b.azimuth < a.azimuth - std::numbers::pi_v<float>;
   });
   if (seam != row.end()) std::ranges::rotate(row, seam + 1);
-  // Insertion sort, as long as it is the faster one.
+  // Insertion sort, which is the fastest as long as few points are out of order.
   std::size_t moves = 0;
   for (std::size_t k = 1; k < row.size(); ++k) {
     const Direction direction = row[k];
@@ -120,11 +119,11 @@ void sort_row(std::span<Direction> row) {
   }
 }
 
-// Where in the image each point goes that has a column: row by row, by azimuth within one. Fills
+// The index in the image of each point that has a column: sorted by row, then azimuth. Fills
 // `row_begin`.
-std::vector<std::uint32_t> places_of_points(const std::vector<std::uint16_t>& column,
-                                            const std::vector<std::int16_t>& row,
-                                            const std::vector<float>& azimuth, RangeImage& image) {
+std::vector<std::uint32_t> sort_points(const std::vector<std::uint16_t>& column,
+                                       const std::vector<std::int16_t>& row,
+                                       const std::vector<float>& azimuth, RangeImage& image) {
   image.row_begin.assign(image.rows + 1, 0);
   for (std::size_t i = 0; i < column.size(); ++i)
     if (column[i] != kNone) ++image.row_begin[row[i] + 1];
@@ -155,14 +154,14 @@ void fill_pixels(RangeImage& image) {
   }
 }
 
-// Seconds from the middle of the sweep to each point of the scan, empty when they are not known or
-// gone. Fills `stamp_ns` and `reference_ns`.
-std::vector<float> ages(const Scan& scan, const std::vector<std::uint16_t>& column,
-                        const std::vector<float>& azimuth, const SensorModel& sensor,
-                        RangeImage& image) {
+// The time of each point after the middle of the sweep, s; empty when the points have no times or
+// are motion compensated. Fills `stamp_ns` and `reference_ns`.
+std::vector<float> point_times(const Scan& scan, const std::vector<std::uint16_t>& column,
+                               const std::vector<float>& azimuth, const SensorModel& sensor,
+                               RangeImage& image) {
   image.stamp_ns = image.reference_ns = scan.stamp_ns;
-  std::vector<float> age;
-  if (sensor.motion_compensated || image.row_begin.back() == 0) return age;
+  std::vector<float> time;
+  if (sensor.motion_compensated || image.row_begin.back() == 0) return time;
   if (!scan.offset_ns.empty()) {
     auto first = std::numeric_limits<std::int64_t>::max();
     auto last = std::numeric_limits<std::int64_t>::min();
@@ -173,21 +172,21 @@ std::vector<float> ages(const Scan& scan, const std::vector<std::uint16_t>& colu
     }
     const std::int64_t middle = first + (last - first) / 2;
     image.reference_ns += middle;
-    age.resize(column.size());
-    for (std::size_t i = 0; i < age.size(); ++i)
-      age[i] = static_cast<float>(1e-9 * static_cast<double>(scan.offset_ns[i] - middle));
+    time.resize(column.size());
+    for (std::size_t i = 0; i < time.size(); ++i)
+      time[i] = static_cast<float>(1e-9 * static_cast<double>(scan.offset_ns[i] - middle));
   } else if (sensor.times_from_azimuth) {
     image.reference_ns += std::llround(0.5e9 * sensor.period);
-    age.resize(column.size());
-    for (std::size_t i = 0; i < age.size(); ++i)
-      age[i] = time_of_azimuth(azimuth[i], sensor) - 0.5f * static_cast<float>(sensor.period);
+    time.resize(column.size());
+    for (std::size_t i = 0; i < time.size(); ++i)
+      time[i] = time_of_azimuth(azimuth[i], sensor) - 0.5f * static_cast<float>(sensor.period);
   }
-  return age;
+  return time;
 }
 
-// The median.
-int usual_step(const RangeImage& image) {
-  std::vector<int> steps(image.columns + 1, 0);  // how many there are of each width
+// The median of the columns from one point of a row to the next.
+int column_step(const RangeImage& image) {
+  std::vector<int> steps(image.columns + 1, 0);  // histogram
   int count = 0;
   for (int row = 0; row < image.rows; ++row) {
     for (std::uint32_t i = image.row_begin[row] + 1; i < image.row_begin[row + 1]; ++i, ++count)
@@ -210,37 +209,36 @@ RangeImage project(const Scan& scan, const SensorModel& sensor) {
   RangeImage image;
   image.rows = sensor.rows();
   image.columns = sensor.columns;
-  const std::vector<std::uint32_t> place = places_of_points(column, row, azimuth, image);
-  const std::vector<float> age = ages(scan, column, azimuth, sensor, image);
+  const std::vector<std::uint32_t> place = sort_points(column, row, azimuth, image);
+  const std::vector<float> time = point_times(scan, column, azimuth, sensor, image);
 
   const std::size_t count = image.row_begin.back();
   image.points.resize(count);
   image.range.resize(count);
   image.intensity.resize(count);
-  image.age.resize(count);
+  image.time.resize(count);
   image.column.resize(count);
 
-  std::vector<Raise> raise;
+  std::vector<ElevationCorrection> correct;
   for (int r = 0; r < image.rows; ++r)
-    raise.emplace_back(radians(sensor.elevation_deg[r]),
-                       radians(sensor.elevation_correction_of(r)));
+    correct.emplace_back(radians(sensor.elevation_deg[r]),
+                         radians(sensor.elevation_correction_of(r)));
   const Eigen::Matrix3f R_level_lidar = R_base_lidar(sensor).cast<float>();
   const bool tilted = sensor.tilted();
   const bool intensities = !scan.intensity.empty();
-  // In the order of the scan: a sensor goes through all rows again and again, so that the points of
-  // each row are written one after the other.
+  // In the order of the scan: the sensor cycles through its rows, so each row is written in order.
   for (std::size_t i = 0; i < column.size(); ++i) {
     if (column[i] == kNone) continue;
     const std::uint32_t k = place[i];
-    const Eigen::Vector3f point = raise[row[i]](scan.points[i], range[i]);
+    const Eigen::Vector3f point = correct[row[i]](scan.points[i], range[i]);
     image.points[k] = tilted ? R_level_lidar * point : point;
     image.range[k] = range[i];
     image.column[k] = column[i];
     if (intensities) image.intensity[k] = scan.intensity[i];
-    if (!age.empty()) image.age[k] = age[i];
+    if (!time.empty()) image.time[k] = time[i];
   }
   fill_pixels(image);
-  image.usual_step = usual_step(image);
+  image.column_step = column_step(image);
   return image;
 }
 

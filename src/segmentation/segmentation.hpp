@@ -11,22 +11,22 @@
 namespace lego_loam_sc {
 
 enum class Label : std::uint8_t {
-  outlier,  ///< in no cluster of sufficient size: noise, leaves
+  outlier,  ///< in no cluster of sufficient size: noise, foliage
   ground,
   segment,  ///< in a cluster
 };
 
-/// What each point of a range image belongs to. Paper 2.1 and 2.3 (1).
+/// Ground, cluster or outlier: the class of each point of a range image. Paper 2.1 and 2.3 (1).
 struct Segmentation {
   std::vector<Label> label;           ///< one per point of the image
-  std::vector<std::int32_t> cluster;  ///< 0, 1, ... in order of appearance; -1 outside `segment`
+  std::vector<std::int32_t> cluster;  ///< 0, 1, ... in order of first point; -1 for no `segment`
   int clusters = 0;
   std::size_t ground_points = 0;
   std::size_t segment_points = 0;
 };
 
-/// Ground first, then clusters of what remains. `sensor_height` is the sensor's height above the
-/// ground, m; 0 = unknown.
+/// Labels the ground first, then clusters the remaining points. `sensor_height` is the sensor's
+/// height above the ground, m; 0 = unknown.
 Segmentation segment(const RangeImage& image, const SensorModel& sensor, double sensor_height,
                      const SegmentationSettings& settings);
 

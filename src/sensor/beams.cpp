@@ -14,16 +14,16 @@
 namespace lego_loam_sc {
 namespace {
 
-// A beam that is mounted off the sensor's centre spreads over a degree near the sensor; a line of
-// a sensor without fixed beams sweeps over tens of them.
-constexpr double kMostSpreadDeg = 2.0;
-constexpr std::size_t kFewestPoints = 20;  // of a beam, in all scans together
-constexpr std::size_t kMostBeams = 256;
+// Near the sensor the elevation of an off-centre beam varies by a degree; a line of a sensor
+// without fixed beams sweeps over tens of degrees.
+constexpr double kMaxIqrDeg = 2.0;
+constexpr std::size_t kMinPoints = 20;  // per beam, over all scans
+constexpr std::size_t kMaxBeams = 256;
 
-// Elevations from -90 to 90 degrees in small bins.
+// Histogram of the elevations from -90 to 90 degrees.
 constexpr double kBinDeg = 0.01;
 constexpr int kBins = 18000;
-// Beams are told apart when this share of the points lies within this share of their spacing.
+// The points form lines when kFitShare of them lie within kNearShare of the spacing to a beam.
 constexpr double kNearShare = 0.15;
 constexpr double kFitShare = 0.8;
 
@@ -38,8 +38,8 @@ double quantile(std::vector<double>& values, double q) {
   return *at;
 }
 
-// Labels in any numbering, -1 = none, become beams in the order of their median elevation.
-Beams measure(std::span<const Scan> scans, const std::vector<std::vector<int>>& label_of_point) {
+// Converts labels in any numbering (-1 = none) to beams sorted by their median elevation.
+Beams make_beams(std::span<const Scan> scans, const std::vector<std::vector<int>>& label_of_point) {
   std::map<int, std::vector<double>> elevations;  // of each label
   for (std::size_t s = 0; s < scans.size(); ++s)
     for (std::size_t i = 0; i < scans[s].size(); ++i)
@@ -47,12 +47,12 @@ Beams measure(std::span<const Scan> scans, const std::vector<std::vector<int>>& 
         elevations[label_of_point[s][i]].push_back(elevation_deg(scans[s].points[i]));
 
   struct Measured {
-    double median, spread;
+    double median, iqr;
     int label;
   };
   std::vector<Measured> measured;
   for (auto& [label, values] : elevations)
-    if (values.size() >= kFewestPoints)
+    if (values.size() >= kMinPoints)
       measured.push_back(
           {quantile(values, 0.5), quantile(values, 0.75) - quantile(values, 0.25), label});
   std::ranges::sort(measured, {}, &Measured::median);
@@ -62,7 +62,7 @@ Beams measure(std::span<const Scan> scans, const std::vector<std::vector<int>>& 
   for (const Measured& beam : measured) {
     beam_of_label[beam.label] = static_cast<std::int16_t>(beams.elevation_deg.size());
     beams.elevation_deg.push_back(beam.median);
-    beams.spread_deg.push_back(beam.spread);
+    beams.iqr_deg.push_back(beam.iqr);
   }
   for (const std::vector<int>& labels : label_of_point) {
     std::vector<std::int16_t>& of_point = beams.of_point.emplace_back();
@@ -90,7 +90,7 @@ double centre_deg(double bin) {
   return (bin + 0.5) * kBinDeg - 90.0;
 }
 
-// Two passes of a running mean over 2 * reach + 1 bins.
+// Two passes of a moving average over 2 * reach + 1 bins.
 Histogram smoothed(Histogram histogram, int reach) {
   for (int pass = 0; pass < 2; ++pass) {
     Histogram sums(kBins + 1, 0.0);
@@ -102,7 +102,7 @@ Histogram smoothed(Histogram histogram, int reach) {
   return histogram;
 }
 
-// The bins of the peaks that rise from a valley half as high at most.
+// The bins of the peaks that are at least twice as high as the valleys beside them.
 std::vector<int> peaks_of(const Histogram& histogram) {
   std::vector<int> peaks;
   int top = 0;     // since the last valley
@@ -121,7 +121,7 @@ std::vector<int> peaks_of(const Histogram& histogram) {
   return peaks;
 }
 
-// Share of the points that lie near a peak, compared with the distance to the peaks next to it.
+// Share of the points near a peak, relative to the spacing of the peaks there.
 double share_near(const Histogram& histogram, const std::vector<int>& peaks) {
   double near = 0.0;
   for (std::size_t p = 0; p < peaks.size(); ++p) {
@@ -134,17 +134,17 @@ double share_near(const Histogram& histogram, const std::vector<int>& peaks) {
   return near / std::accumulate(histogram.begin(), histogram.end(), 0.0);
 }
 
-// Elevations half-way between beams, deg; nothing when the points do not gather on lines.
+// Elevations half-way between beams, deg; empty when the points form no lines.
 std::vector<double> find_borders(const Histogram& histogram) {
-  // Too fine a scale splits beams that are mounted off the centre, too coarse a one merges beams.
+  // Too fine a scale splits off-centre beams, too coarse a scale merges beams.
   std::vector<int> best;
   double best_share = kFitShare;
   for (const int reach : {1, 2, 3, 5, 8, 13, 21, 34}) {
     std::vector<int> peaks = peaks_of(smoothed(histogram, reach));
-    if (peaks.size() < 2 || peaks.size() > kMostBeams) continue;
+    if (peaks.size() < 2 || peaks.size() > kMaxBeams) continue;
     const double share = share_near(histogram, peaks);
     if (share < best_share) continue;
-    best_share = share + 0.01;  // at the same share the finer scale is right
+    best_share = share + 0.01;  // for equal shares the finer scale wins
     best = std::move(peaks);
   }
   std::vector<double> borders;
@@ -153,14 +153,14 @@ std::vector<double> find_borders(const Histogram& histogram) {
   return borders;
 }
 
-// Other orders of storage give pieces that mix beams: these spread as far as beams are apart.
+// Other storage orders yield groups that mix beams, whose elevations vary by the beam spacing.
 bool are_rings(const Beams& beams) {
   const std::size_t count = beams.elevation_deg.size();
-  if (count < 8 || count > kMostBeams) return false;
-  std::vector<double> spread = beams.spread_deg;
+  if (count < 8 || count > kMaxBeams) return false;
+  std::vector<double> iqr = beams.iqr_deg;
   const double spacing =
       (beams.elevation_deg.back() - beams.elevation_deg.front()) / static_cast<double>(count - 1);
-  return quantile(spread, 0.5) < 0.75 * spacing;
+  return quantile(iqr, 0.5) < 0.75 * spacing;
 }
 
 }  // namespace
@@ -173,35 +173,35 @@ std::vector<std::int16_t> stored_rings(const Scan& scan) {
 
 Beams beams_of_rings(std::span<const Scan> scans) {
   std::vector<std::vector<int>> labels;
-  bool told_apart = false;
+  bool has_rings = false;
   for (const Scan& scan : scans) {
     labels.emplace_back(scan.size(), -1);
     std::ranges::copy(scan.ring, labels.back().begin());
-    for (const std::uint16_t ring : scan.ring) told_apart |= ring != scan.ring.front();
+    for (const std::uint16_t ring : scan.ring) has_rings |= ring != scan.ring.front();
   }
-  return told_apart ? measure(scans, labels) : Beams{};
+  return has_rings ? make_beams(scans, labels) : Beams{};
 }
 
 Beams beams_of_storage_order(std::span<const Scan> scans) {
   std::vector<std::vector<int>> labels;
-  std::map<int, int> scans_with;  // so many rings
+  std::map<int, int> scans_by_rings;  // number of scans by number of rings
   std::vector<int> rings;
   for (const Scan& scan : scans) {
     const std::vector<std::int16_t> ring = stored_rings(scan);
     labels.emplace_back(ring.begin(), ring.end());
     labels.back().resize(scan.size(), -1);
     rings.push_back(ring.empty() ? 0 : 1 + *std::ranges::max_element(ring));
-    ++scans_with[rings.back()];
+    ++scans_by_rings[rings.back()];
   }
-  if (scans_with.empty()) return {};
-  // A ring that is missing shifts the numbers of all below it.
-  const int usual = std::ranges::max_element(scans_with, {}, [](const auto& entry) {
-                      return entry.second;
-                    })->first;
+  if (scans_by_rings.empty()) return {};
+  // A missing ring shifts the numbers of all rings below it.
+  const int most_common = std::ranges::max_element(scans_by_rings, {}, [](const auto& entry) {
+                            return entry.second;
+                          })->first;
   for (std::size_t s = 0; s < scans.size(); ++s)
-    if (rings[s] != usual) labels[s].assign(labels[s].size(), -1);
+    if (rings[s] != most_common) labels[s].assign(labels[s].size(), -1);
 
-  const Beams beams = measure(scans, labels);
+  const Beams beams = make_beams(scans, labels);
   return are_rings(beams) ? beams : Beams{};
 }
 
@@ -216,17 +216,18 @@ Beams beams_of_elevations(std::span<const Scan> scans) {
         labels.back()[i] = static_cast<int>(
             std::ranges::upper_bound(borders, elevation_deg(scan.points[i])) - borders.begin());
   }
-  return measure(scans, labels);
+  return make_beams(scans, labels);
 }
 
-std::optional<std::string> fault_of_rings(const Beams& rings) {
-  std::vector<double> spread = rings.spread_deg;
-  if (spread.empty() || quantile(spread, 0.5) <= kMostSpreadDeg) return std::nullopt;
-  const auto widest = std::ranges::max_element(rings.spread_deg);
-  return "half of the points of one ring spread over " + to_fixed(*widest, 1) +
-         " degrees of elevation, so that the ring field numbers no beams: either the sensor has "
-         "none that are fixed, as a Livox or another that does not spin, or the points were turned "
-         "into another frame; LeGO-LOAM-SC needs the points of a spinning LiDAR in its own frame";
+std::optional<std::string> ring_fault(const Beams& rings) {
+  std::vector<double> iqr = rings.iqr_deg;
+  if (iqr.empty() || quantile(iqr, 0.5) <= kMaxIqrDeg) return std::nullopt;
+  const auto widest = std::ranges::max_element(rings.iqr_deg);
+  return "half of the points of one ring are spread over " + to_fixed(*widest, 1) +
+         " degrees of elevation, so the ring field does not number beams: either the sensor does "
+         "not "
+         "spin (a Livox has no fixed beams), or the points were transformed into another frame; "
+         "LeGO-LOAM-SC needs the points of a spinning LiDAR in its own frame";
 }
 
 }  // namespace lego_loam_sc

@@ -11,30 +11,30 @@
 
 namespace lego_loam_sc {
 
-/// The beams that made some scans, from the lowest up.
+/// The beams found in some scans, from the lowest up.
 struct Beams {
-  std::vector<double> elevation_deg;                ///< median of the points of each beam
-  std::vector<double> spread_deg;                   ///< between the quartiles of its points
-  std::vector<std::vector<std::int16_t>> of_point;  ///< of each scan: beam of each point or -1
+  std::vector<double> elevation_deg;                ///< median over the points of each beam
+  std::vector<double> iqr_deg;                      ///< interquartile range of their elevations
+  std::vector<std::vector<std::int16_t>> of_point;  ///< for each scan: beam of each point or -1
 
   bool empty() const { return elevation_deg.empty(); }
 };
 
-/// The ring of each point by the order of storage, see rings_of_storage_order(): -1 for those
-/// without return; nothing when the scan is stored in another order.
+/// The ring of each point by storage order, see rings_of_storage_order(): -1 for points without
+/// return; empty when the scan is stored in another order.
 std::vector<std::int16_t> stored_rings(const Scan& scan);
 
-/// By the ring field; none when it is missing or the same everywhere.
+/// Beams by the ring field; none when it is missing or constant.
 Beams beams_of_rings(std::span<const Scan> scans);
 
-/// By the order of storage, for scans stored as KITTI's are; none for others.
+/// Beams by storage order, for scans stored like KITTI's; none for others.
 Beams beams_of_storage_order(std::span<const Scan> scans);
 
-/// By the elevations alone: none when they do not gather on lines.
+/// Beams by the elevations alone; none when these form no lines.
 Beams beams_of_elevations(std::span<const Scan> scans);
 
-/// Why the numbered rings of a scan are none, as one sentence: a Livox or a solid-state sensor
-/// numbers lines that are no beams. Nothing when they are good.
-std::optional<std::string> fault_of_rings(const Beams& rings);
+/// Why the ring numbers of a scan are not beams, as one sentence: a Livox or solid-state sensor
+/// numbers lines without a fixed elevation. Nothing when they are.
+std::optional<std::string> ring_fault(const Beams& rings);
 
 }  // namespace lego_loam_sc

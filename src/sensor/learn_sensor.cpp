@@ -17,7 +17,8 @@
 namespace lego_loam_sc {
 namespace {
 
-constexpr double kLongestBlindRange = 1.0;  // m; no scene with nothing nearer tells the sensor's
+constexpr double kMaxBlindRange =
+    1.0;  // m; larger minimum ranges are the scene's, not the sensor's
 
 double azimuth_of(const Eigen::Vector3f& p) {
   return std::atan2(p.y(), p.x());
@@ -37,11 +38,11 @@ std::size_t count_returns(std::span<const Scan> scans) {
 
 Beams find_beams(std::span<const Scan> scans, std::vector<std::string>& notes) {
   Beams beams = beams_of_rings(scans);
-  if (const auto fault = fault_of_rings(beams)) throw InputError(*fault);
-  std::string source = "the numbers of the rings";
+  if (const auto fault = ring_fault(beams)) throw InputError(*fault);
+  std::string source = "the ring numbers";
   if (beams.empty()) {
     beams = beams_of_storage_order(scans);
-    source = "the order of storage, ring after ring";
+    source = "the storage order, ring after ring";
   }
   if (beams.empty()) {
     beams = beams_of_elevations(scans);
@@ -50,10 +51,9 @@ Beams find_beams(std::span<const Scan> scans, std::vector<std::string>& notes) {
   if (beams.empty())
     throw InputError(
         std::to_string(count_returns(scans)) +
-        " points without ring numbers do not gather on lines of one elevation: either the sensor "
-        "does not spin, as a Livox or a solid-state LiDAR, whose scans have no rings to work on, "
-        "or the points were moved since; give the scans as the driver made them, with their "
-        "rings");
+        " points without ring numbers form no lines of constant elevation: either the sensor does "
+        "not spin (a Livox or solid-state LiDAR has no rings), or the points were transformed; "
+        "give the scans as the driver wrote them, with their ring numbers");
   for (double& elevation : beams.elevation_deg) elevation = std::round(1e3 * elevation) / 1e3;
   notes.push_back(std::to_string(beams.elevation_deg.size()) + " beams between " +
                   to_fixed(beams.elevation_deg.front(), 2) + " and " +
@@ -61,7 +61,8 @@ Beams find_beams(std::span<const Scan> scans, std::vector<std::string>& notes) {
   return beams;
 }
 
-// The usual step from one point of a beam to the next, rad; nothing when there are too few.
+// The mean azimuth step from one point of a beam to the next without gaps, rad; nothing when there
+// are too few points.
 std::optional<double> azimuth_step(std::span<const Scan> scans, const Beams& beams) {
   constexpr double kSameDirection = 1e-4;  // rad; two returns of one shot
   std::vector<double> steps;
@@ -83,7 +84,7 @@ std::optional<double> azimuth_step(std::span<const Scan> scans, const Beams& bea
   double sum = 0.0;
   std::size_t count = 0;
   for (const double step : steps) {
-    if (std::abs(step - median) > 0.25 * median) continue;  // gaps
+    if (std::abs(step - median) > 0.25 * median) continue;  // a gap
     sum += step;
     ++count;
   }
@@ -93,7 +94,7 @@ std::optional<double> azimuth_step(std::span<const Scan> scans, const Beams& bea
 void learn_columns(std::span<const Scan> scans, const Beams& beams, LearnedSensor& learned) {
   const std::optional<double> step = azimuth_step(scans, beams);
   if (!step) {
-    learned.notes.emplace_back("too few points to tell the columns, 1800 are assumed");
+    learned.notes.emplace_back("too few points to determine the columns, 1800 are assumed");
     return;
   }
   learned.sensor.columns =
@@ -103,7 +104,7 @@ void learn_columns(std::span<const Scan> scans, const Beams& beams, LearnedSenso
 }
 
 void learn_ranges(std::span<const Scan> scans, LearnedSensor& learned) {
-  constexpr std::size_t kStrays = 20;  // nearer returns than this many others may be dust
+  constexpr std::size_t kStrays = 20;  // the closest returns, which may be dust
   std::vector<float> ranges;
   for (const Scan& scan : scans)
     for (const Eigen::Vector3f& p : scan.points)
@@ -114,16 +115,16 @@ void learn_ranges(std::span<const Scan> scans, LearnedSensor& learned) {
   const double nearest = *near;
   const double farthest = *std::ranges::max_element(ranges);
   SensorModel& sensor = learned.sensor;
-  sensor.min_range = std::clamp(std::floor(10.0 * nearest) / 10.0, 0.1, kLongestBlindRange);
-  // That nothing far was seen says nothing about how far it sees.
+  sensor.min_range = std::clamp(std::floor(10.0 * nearest) / 10.0, 0.1, kMaxBlindRange);
+  // A short farthest return does not bound the maximum range.
   sensor.max_range = std::clamp(10.0 * std::ceil(farthest / 10.0), sensor.max_range, 1000.0);
   learned.notes.push_back(
       "ranges from " + to_fixed(nearest, 2) + " to " + to_fixed(farthest, 1) + " m seen" +
-      (nearest > kLongestBlindRange ? "; nothing was near enough to show the blind zone"
-                                    : std::string()));
+      (nearest > kMaxBlindRange ? "; no return was close enough to show the blind zone"
+                                : std::string()));
 }
 
-// Start and direction of the sweep, from points of one beam in the order of their times.
+// Start and direction of the sweep, from the points of each beam in order of time.
 void learn_rotation(const Scan& scan, const std::vector<std::int16_t>& beam_of_point,
                     LearnedSensor& learned) {
   struct Timed {
@@ -164,7 +165,7 @@ void learn_period(std::span<const Scan> scans, LearnedSensor& learned) {
 
 }  // namespace
 
-LearnedSensor learn_sensor(std::span<const Scan> scans) {
+LearnedSensor learn_sensor(std::span<const Scan> scans, std::span<const SensorModel> presets) {
   if (count_returns(scans) < 1000)
     throw InputError("the scans have " + std::to_string(count_returns(scans)) +
                      " points with a return, too few to learn a sensor from");
@@ -175,11 +176,11 @@ LearnedSensor learn_sensor(std::span<const Scan> scans) {
   learn_ranges(scans, learned);
   learn_rotation(scans.front(), beams.of_point.front(), learned);
   learn_period(scans, learned);
-  if (const auto preset = nearest_preset(beams.elevation_deg))
+  if (const auto preset = nearest_preset(beams.elevation_deg, presets))
     learned.notes.push_back("the nearest preset is " + preset->name + ", " +
                             to_fixed(preset->difference_deg, 3) + " degrees off on average");
   if (const auto fault = validate(learned.sensor))
-    throw InputError("no sensor can be made of these scans: " + *fault);
+    throw InputError("these scans yield no valid sensor: " + *fault);
   return learned;
 }
 

@@ -10,16 +10,17 @@
 
 namespace lego_loam_sc {
 
-/// A sensor as its scans show it, and a sentence for each thing that was found or could not be.
+/// A sensor model estimated from scans, and a sentence for each property that was or was not found.
 struct LearnedSensor {
   SensorModel sensor;
   std::vector<std::string> notes;
 };
 
-/// Finds the beams (by ring numbers, else by KITTI's order of storage, else by the elevations), the
-/// columns, the nearest range and, from the times of points, the direction and start of a sweep;
-/// what scans do not show keeps its default. Throws InputError that says what was seen when the
-/// points lie on no beams, as those of a sensor do that does not spin.
-LearnedSensor learn_sensor(std::span<const Scan> scans);
+/// Finds the beams (by ring numbers, else by KITTI's storage order, else by the elevations), the
+/// columns, the minimum range and, from the times of points, the direction and start of a sweep;
+/// what scans do not show keeps its default. A note names the nearest of the `presets`. Throws
+/// InputError that describes the scans when the points lie on no beams, as with a sensor that does
+/// not spin.
+LearnedSensor learn_sensor(std::span<const Scan> scans, std::span<const SensorModel> presets);
 
 }  // namespace lego_loam_sc

@@ -5,27 +5,26 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <string_view>
 #include <vector>
 
 #include "core/error.hpp"
 #include "core/pose.hpp"
 #include "core/text.hpp"
-#include "io/preset_text.hpp"
-#include "io/sensor_yaml.hpp"
 #include "sensor/beams.hpp"
 #include "sensor/row_assignment.hpp"
 
 namespace lego_loam_sc {
 namespace {
 
-// Chance alone puts 30 % of the points within this share of the spacing to a beam.
+// By chance 30 % of the points lie within this share of the spacing to a beam.
 constexpr double kNearShare = 0.15;
 constexpr double kFitShare = 0.8;
 constexpr double kFarDeg = 2.0;
 constexpr double kStrayShare = 0.05;
 constexpr double kMisfitShare = 0.2;
-constexpr double kRingShare = 0.9;  // of the beams of a preset that must be there
-constexpr double kNearDeg = 0.5;    // on average; units of one model differ by up to this much
+constexpr double kRingShare = 0.9;  // of the beams of a preset that must be present
+constexpr double kNearDeg = 0.5;    // mean difference between units of one model
 
 struct Elevations {
   std::vector<double> deg;  // of the points with a return
@@ -45,13 +44,13 @@ Elevations measure_elevations(const Scan& scan) {
   return elevations;
 }
 
-// Distance from an elevation to the nearest beam, and the spacing of the beams there, deg.
+// Distance from an elevation to the nearest beam, and the local spacing of the beams, deg.
 struct NearestBeam {
   double distance;
   double spacing;
 };
 
-// `beams` has two at least.
+// `beams` has at least two entries.
 NearestBeam nearest_beam(const std::vector<double>& beams, double elevation) {
   const auto above = std::lower_bound(beams.begin(), beams.end(), elevation);
   if (above == beams.begin()) return {beams.front() - elevation, beams[1] - beams[0]};
@@ -90,27 +89,37 @@ std::size_t count_stored_rings(const Scan& scan) {
   return ring.empty() ? 0 : static_cast<std::size_t>(1 + *std::ranges::max_element(ring));
 }
 
-// Nothing when the scan looks like no sensor that we know.
-std::optional<std::string> recognise(const Scan& scan, const Elevations& elevations) {
+// Null when there is none.
+const SensorModel* find_preset(std::span<const SensorModel> presets, std::string_view name) {
+  const auto found = std::ranges::find(presets, name, &SensorModel::name);
+  return found == presets.end() ? nullptr : &*found;
+}
+
+// Null when no preset fits.
+const SensorModel* recognise(const Scan& scan, const Elevations& elevations,
+                             std::span<const SensorModel> presets) {
   const std::size_t rings = count_rings(scan);
   if (rings == 0) {
     const std::size_t stored = count_stored_rings(scan);
-    // The outermost may be empty.
-    if (stored >= 60 && stored <= 66 &&
-        share_outside(elevations, load_sensor("kitti").elevation_deg) < kStrayShare)
-      return "kitti";
+    const SensorModel* kitti = find_preset(presets, "kitti");
+    // The outermost rings may be empty.
+    if (kitti && stored >= 60 && stored <= 66 &&
+        share_outside(elevations, kitti->elevation_deg) < kStrayShare)
+      return kitti;
   }
   for (const char* name : {"vlp16", "hdl32e"}) {
-    const SensorModel sensor = load_sensor(name);
-    if (rings <= sensor.elevation_deg.size() && fits(elevations, sensor.elevation_deg)) return name;
+    const SensorModel* sensor = find_preset(presets, name);
+    if (sensor && rings <= sensor->elevation_deg.size() && fits(elevations, sensor->elevation_deg))
+      return sensor;
   }
-  if (const auto preset = nearest_preset(beams_of_rings({&scan, 1}).elevation_deg))
-    return preset->name;
+  if (const auto preset = nearest_preset(beams_of_rings({&scan, 1}).elevation_deg, presets))
+    return find_preset(presets, preset->name);
   // The beams of an HDL-64E differ too much from unit to unit to be compared one by one.
-  if (rings > 32 && rings <= 64 &&
-      share_outside(elevations, load_sensor("hdl64e").elevation_deg) < kStrayShare)
-    return "hdl64e";
-  return std::nullopt;
+  const SensorModel* hdl64e = find_preset(presets, "hdl64e");
+  if (hdl64e && rings > 32 && rings <= 64 &&
+      share_outside(elevations, hdl64e->elevation_deg) < kStrayShare)
+    return hdl64e;
+  return nullptr;
 }
 
 std::string describe(const Scan& scan, const Elevations& elevations) {
@@ -123,46 +132,45 @@ std::string describe(const Scan& scan, const Elevations& elevations) {
 
 }  // namespace
 
-std::optional<NearestPreset> nearest_preset(const std::vector<double>& elevation_deg) {
+std::optional<NearestPreset> nearest_preset(const std::vector<double>& elevation_deg,
+                                            std::span<const SensorModel> presets) {
   std::vector<double> elevation(elevation_deg.size());
   std::ranges::transform(elevation_deg, elevation.begin(), radians);
   std::optional<NearestPreset> nearest;
-  // RS-LiDAR-16, RS-Helios-16P and XT16 have the beams of a VLP-16, by far the most common of them.
-  std::vector<std::string> names = preset_names("sensors");
-  names.insert(names.begin(), "vlp16");
-  for (const std::string& name : names) {
-    const SensorModel sensor = load_sensor(name);
-    if (sensor.motion_compensated || elevation.size() < kRingShare * sensor.rows()) continue;
+  const auto compare = [&](const SensorModel& sensor) {
+    if (sensor.motion_compensated || elevation.size() < kRingShare * sensor.rows()) return;
     const auto rows = align_to_beams(elevation, sensor);
-    if (!rows) continue;
+    if (!rows) return;
     double sum = 0.0;
     for (std::size_t k = 0; k < rows->size(); ++k)
       sum += std::abs(elevation_deg[k] - sensor.elevation_deg[(*rows)[k]]);
     const double difference = sum / static_cast<double>(rows->size());
     if (difference < (nearest ? nearest->difference_deg : kNearDeg))
-      nearest = NearestPreset{name, difference};
-  }
+      nearest = NearestPreset{sensor.name, difference};
+  };
+  // RS-LiDAR-16, RS-Helios-16P and XT16 have the beams of a VLP-16, the most common: it wins ties.
+  if (const SensorModel* vlp16 = find_preset(presets, "vlp16")) compare(*vlp16);
+  for (const SensorModel& sensor : presets) compare(sensor);
   return nearest;
 }
 
-SensorModel recognise_sensor(const Scan& scan, const DatasetFacts& facts) {
-  if (facts.sensor) return with_facts(load_sensor(*facts.sensor), facts);
-  if (const auto fault = fault_of_rings(beams_of_rings({&scan, 1})))
+SensorModel recognise_sensor(const Scan& scan, std::span<const SensorModel> presets) {
+  if (const auto fault = ring_fault(beams_of_rings({&scan, 1})))
     throw InputError("the sensor is not recognised: " + *fault);
   const Elevations elevations = measure_elevations(scan);
-  const std::optional<std::string> name =
-      elevations.deg.empty() ? std::nullopt : recognise(scan, elevations);
-  if (!name)
-    throw InputError("the sensor is not recognised: the scan has " + describe(scan, elevations) +
-                     "; give --sensor with a sensor file or one of " +
-                     join(preset_names("sensors")));
-  return with_facts(load_sensor(*name), facts);
+  const SensorModel* sensor =
+      elevations.deg.empty() ? nullptr : recognise(scan, elevations, presets);
+  if (sensor) return *sensor;
+  std::vector<std::string> names;
+  for (const SensorModel& preset : presets) names.push_back(preset.name);
+  throw InputError("the sensor is not recognised: the scan has " + describe(scan, elevations) +
+                   "; give --sensor with a sensor file or one of " + join(names));
 }
 
 std::optional<std::string> sensor_mismatch(const Scan& scan, const SensorModel& sensor) {
   const Elevations elevations = measure_elevations(scan);
   if (elevations.deg.empty()) return std::nullopt;
-  if (const auto fault = fault_of_rings(beams_of_rings({&scan, 1}))) return fault;
+  if (const auto fault = ring_fault(beams_of_rings({&scan, 1}))) return fault;
   const auto& beams = sensor.elevation_deg;
   if (count_rings(scan) <= beams.size() && share_outside(elevations, beams) <= kMisfitShare)
     return std::nullopt;

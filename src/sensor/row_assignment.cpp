@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::int16_t kNoRow = -1;
 
-// The group of each point (a ring in no particular numbering), -1 for none.
+// The group of each point: a ring in arbitrary numbering, -1 for none.
 struct Groups {
   std::vector<std::int16_t> of_point;
   int count = 0;
@@ -26,7 +26,7 @@ Groups groups_of_ring_field(const Scan& scan) {
   Groups groups;
   groups.of_point.assign(scan.size(), -1);
   for (std::size_t i = 0; i < scan.size(); ++i) {
-    if (scan.ring[i] >= kMostRings) continue;  // a broken field
+    if (scan.ring[i] >= kMaxRings) continue;  // a corrupt field
     groups.of_point[i] = static_cast<std::int16_t>(scan.ring[i]);
     groups.count = std::max(groups.count, scan.ring[i] + 1);
   }
@@ -41,7 +41,7 @@ Groups groups_of_storage_order(const Scan& scan, const std::vector<std::uint8_t>
   return groups;
 }
 
-// Mean elevation of each group, rad, of every n-th point; NaN for a group without any.
+// Mean elevation of each group, rad, over every n-th point; NaN for a group without points.
 std::vector<double> mean_elevation_of_every(std::size_t n, const Scan& scan,
                                             const std::vector<std::uint8_t>& usable,
                                             const Groups& groups) {
@@ -50,9 +50,9 @@ std::vector<double> mean_elevation_of_every(std::size_t n, const Scan& scan,
   for (std::size_t i = 0; i < scan.size(); i += n) {
     if (!usable[i] || groups.of_point[i] < 0) continue;
     const Eigen::Vector3f& p = scan.points[i];
-    const float across = std::sqrt(p.x() * p.x() + p.y() * p.y());
-    if (across == 0.0f) continue;
-    sum[groups.of_point[i]] += p.z() / across;
+    const float horizontal = std::sqrt(p.x() * p.x() + p.y() * p.y());
+    if (horizontal == 0.0f) continue;
+    sum[groups.of_point[i]] += p.z() / horizontal;
     ++count[groups.of_point[i]];
   }
   std::vector<double> mean(groups.count);
@@ -62,7 +62,7 @@ std::vector<double> mean_elevation_of_every(std::size_t n, const Scan& scan,
   return mean;
 }
 
-// A part of many points tells it as well, unless it passes over a group.
+// In large scans every seventh point suffices, unless that skips a group.
 std::vector<double> mean_elevation(const Scan& scan, const std::vector<std::uint8_t>& usable,
                                    const Groups& groups) {
   constexpr std::size_t kManyPoints = 20'000;
@@ -73,8 +73,8 @@ std::vector<double> mean_elevation(const Scan& scan, const std::vector<std::uint
   return mean_elevation_of_every(1, scan, usable, groups);
 }
 
-// Rings lie one after another in the file, top ring first, when there are as many of them as beams
-// (a few may be empty) and their elevation falls.
+// Whether the points are stored ring by ring from the top: as many rings as beams (a few may be
+// empty) with descending elevation.
 bool is_storage_order(const std::vector<double>& elevation, const SensorModel& sensor) {
   const int groups = static_cast<int>(elevation.size());
   if (groups > sensor.rows() || 2 * groups < sensor.rows() || groups < 2) return false;
@@ -94,7 +94,7 @@ std::vector<std::int16_t> rows_of_groups(const Groups& groups,
 std::vector<std::int16_t> rows_of_elevation(const Scan& scan,
                                             const std::vector<std::uint8_t>& usable,
                                             const SensorModel& sensor) {
-  // Compared as tangents; a point farther from its beam than half the spacing belongs to no row.
+  // Tangents are compared. A point farther from its beam than half the spacing belongs to no row.
   const int count = sensor.rows();
   std::vector<double> upper(count), lower(count);
   for (int r = 0; r < count; ++r) {
@@ -117,7 +117,7 @@ std::vector<std::int16_t> rows_of_elevation(const Scan& scan,
 
 }  // namespace
 
-// Dynamic programming.
+// By dynamic programming.
 std::optional<std::vector<std::int16_t>> align_to_beams(const std::vector<double>& elevation,
                                                         const SensorModel& sensor) {
   std::vector<int> order;
@@ -130,7 +130,7 @@ std::optional<std::vector<std::int16_t>> align_to_beams(const std::vector<double
   if (groups == 0 || groups > rows) return std::nullopt;
 
   const double infinity = std::numeric_limits<double>::infinity();
-  // cost[g][r]: the first g groups placed on the first r rows.
+  // cost[g][r]: the first g groups assigned to the first r rows.
   std::vector<double> cost(static_cast<std::size_t>(groups + 1) * (rows + 1), infinity);
   const auto at = [&](int g, int r) -> double& { return cost[g * (rows + 1) + r]; };
   const auto difference = [&](int g, int r) {
@@ -154,7 +154,7 @@ std::vector<std::int16_t> assign_rows(const Scan& scan, const std::vector<std::u
                                       const SensorModel& sensor) {
   const bool one_ring = std::adjacent_find(scan.ring.begin(), scan.ring.end(),
                                            std::not_equal_to<>()) == scan.ring.end();
-  if (!one_ring) {  // the same number everywhere, or no field at all, says nothing
+  if (!one_ring) {  // a constant ring number is as good as none
     const Groups groups = groups_of_ring_field(scan);
     if (const auto rows = align_to_beams(mean_elevation(scan, usable, groups), sensor))
       return rows_of_groups(groups, *rows);

@@ -7,7 +7,7 @@ std::vector<std::int16_t> rings_of_storage_order(const Scan& scan,
                                                  const std::vector<std::uint8_t>& usable) {
   std::vector<std::int16_t> ring_of_point(scan.size(), -1);
   bool previous_in_fourth = false;
-  bool passed_rear = false;  // else jitter round zero would start rings
+  bool passed_rear = false;  // prevents jitter around zero from starting rings
   int ring = 0;
   for (std::size_t i = 0; i < scan.size(); ++i) {
     if (!usable[i]) continue;
@@ -15,7 +15,7 @@ std::vector<std::int16_t> rings_of_storage_order(const Scan& scan,
     const float y = scan.points[i].y();
     if (previous_in_fourth && x > 0.0f && y >= 0.0f && passed_rear) {
       passed_rear = false;
-      if (++ring >= kMostRings) return {};
+      if (++ring >= kMaxRings) return {};
     }
     passed_rear = passed_rear || x < 0.0f;
     previous_in_fourth = x > 0.0f && y < 0.0f;

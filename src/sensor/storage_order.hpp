@@ -8,13 +8,13 @@
 
 namespace lego_loam_sc {
 
-/// No spinning sensor has so many; what counts more is no ring number.
-constexpr int kMostRings = 4096;
+/// Larger ring numbers mean a corrupt field.
+constexpr int kMaxRings = 4096;
 
-/// The ring of every point by the order of storage, -1 where `usable` is 0: KITTI stores ring after
-/// ring, each swept counter-clockwise from straight ahead, so a new ring starts where the azimuth
-/// passes from the fourth quadrant to the first, with points behind the sensor in between. Nothing
-/// when that gives more than `kMostRings`.
+/// The ring of every point by storage order, -1 where `usable` is 0. KITTI stores ring after ring,
+/// each counter-clockwise from straight ahead, so a new ring starts where the azimuth passes from
+/// the fourth quadrant to the first after points behind the sensor. Empty when there are more than
+/// `kMaxRings`.
 std::vector<std::int16_t> rings_of_storage_order(const Scan& scan,
                                                  const std::vector<std::uint8_t>& usable);
 

@@ -13,8 +13,8 @@ constexpr double kConfirmed = 0.5;   // of all points
 constexpr int kPatience = 10;        // lost scans before a new map begins
 
 bool confirms(const MapMatch& match) {
-  return match.matched && (match.agreeing >= kAgreement * match.matches ||
-                           match.agreeing >= kConfirmed * match.points);
+  return match.matched && (match.inliers >= kAgreement * match.matches ||
+                           match.inliers >= kConfirmed * match.points);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 
 #include "fuzz.hpp"
 #include "io/dataset_facts.hpp"
-#include "io/scan_times.hpp"
+#include "io/scan_source.hpp"
 
 using namespace lego_loam_sc;
 

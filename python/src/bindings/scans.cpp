@@ -6,7 +6,7 @@
 #include <nanobind/stl/unique_ptr.h>
 
 #include <cmath>
-#include <lego_loam_sc/sensor/recognise_sensor.hpp>
+#include <lego_loam_sc/io/sensor_presets.hpp>
 #include <lego_loam_sc/io/scan_source.hpp>
 #include <limits>
 #include <stdexcept>

@@ -95,7 +95,7 @@ def _is_too_coarse(earliest: np.number, latest: np.number) -> bool:
 def _fail(earliest: np.number, latest: np.number) -> None:
     coarse = " (float32 is too coarse for them)" if _is_too_coarse(earliest, latest) else ""
     raise InputError(
-        f"the times of the points run from {earliest} to {latest}, which is no sweep of 20 to "
+        f"the point times run from {earliest} to {latest}, which is not a sweep of 20 to "
         f"500 ms in any unit{coarse}; set point_times to s, ms, us, ns or none in dataset.yaml "
         "beside the recording"
     )
@@ -104,7 +104,7 @@ def _fail(earliest: np.number, latest: np.number) -> None:
 def _decide_origin(first_ns: int, last_ns: int, stamp_ns: int) -> tuple[int, str]:
     """What the times count from, ns in their own clock, and in words."""
     if max(abs(first_ns), abs(last_ns)) <= _SAME_CLOCK_NS:
-        return 0, "from the stamp of the scan"
+        return 0, "relative to the stamp of the scan"
     if abs(first_ns - stamp_ns) <= _SAME_CLOCK_NS:
         return stamp_ns, "on the clock of the stamp"
-    return first_ns, "on another clock than the stamp, the first is taken for it"
+    return first_ns, "on another clock than the stamp, the earliest is assumed to be at the stamp"

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "io/preset_text.hpp"
+#include "io/presets.hpp"
 
 #include "core/text.hpp"
-#include "io/presets.hpp"
 
 namespace lego_loam_sc {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "graph/stretch.hpp"
+#include "graph/chain_segment.hpp"
 
 namespace lego_loam_sc {
 
@@ -16,7 +16,7 @@ Matrix6 swap_blocks(const Matrix6& covariance) {
   return result;
 }
 
-Link unmoved(const PoseEdge& edge) {
+Link linearised_at_measurement(const PoseEdge& edge) {
   return {to_gtsam(edge.T_from_to), Vector6::Zero(), swap_blocks(edge.covariance)};
 }
 
@@ -26,31 +26,31 @@ Link linearised(const PoseEdge& edge, const Pose3& relative) {
   return {relative, residual, jacobian * swap_blocks(edge.covariance) * jacobian.transpose()};
 }
 
-Stretch condense(const std::vector<Link>& links, int from, int to) {
-  Stretch stretch;
-  stretch.from = from;
-  stretch.to = to;
+ChainSegment condense(const std::vector<Link>& links, int from, int to) {
+  ChainSegment segment;
+  segment.from = from;
+  segment.to = to;
   for (int i = from; i < to; ++i) {
     const Link& link = links[i];
     const Matrix6 adjoint = link.relative.inverse().AdjointMap();
-    stretch.relative = stretch.relative * link.relative;
-    stretch.offset = adjoint * stretch.offset + link.offset;
-    stretch.spread = adjoint * stretch.spread * adjoint.transpose() + link.spread;
+    segment.relative = segment.relative * link.relative;
+    segment.offset = adjoint * segment.offset + link.offset;
+    segment.covariance = adjoint * segment.covariance * adjoint.transpose() + link.covariance;
   }
-  return stretch;
+  return segment;
 }
 
-double expand(const Stretch& stretch, const Pose3& T_from_to, const std::vector<Link>& links,
+double expand(const ChainSegment& segment, const Pose3& T_from_to, const std::vector<Link>& links,
               std::vector<Pose3>& relatives) {
-  const Vector6 change = Pose3::Logmap(stretch.relative.inverse() * T_from_to);
-  Vector6 pull = stretch.spread.ldlt().solve(change + stretch.offset);
+  const Vector6 change = Pose3::Logmap(segment.relative.inverse() * T_from_to);
+  Vector6 force = segment.covariance.ldlt().solve(change + segment.offset);
   double moved = 0.0;
-  for (int i = stretch.to - 1; i >= stretch.from; --i) {
+  for (int i = segment.to - 1; i >= segment.from; --i) {
     const Link& link = links[i];
-    const Vector6 motion = link.spread * pull - link.offset;
+    const Vector6 motion = link.covariance * force - link.offset;
     relatives[i] = link.relative * Pose3::Expmap(motion);
     moved += motion.norm();
-    pull = link.relative.inverse().AdjointMap().transpose() * pull;
+    force = link.relative.inverse().AdjointMap().transpose() * force;
   }
   return moved;
 }
