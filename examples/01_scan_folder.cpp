@@ -7,11 +7,11 @@
 #include <cstdio>
 #include <exception>
 #include <lego_loam_sc/io/cloud_writer.hpp>
-#include <lego_loam_sc/sensor/recognise_sensor.hpp>
 #include <lego_loam_sc/io/scan_source.hpp>
 #include <lego_loam_sc/io/settings_yaml.hpp>
 #include <lego_loam_sc/io/trajectory.hpp>
 #include <lego_loam_sc/key_frames/map_cloud.hpp>
+#include <lego_loam_sc/sensor/recognise_sensor.hpp>
 #include <lego_loam_sc/slam/slam.hpp>
 #include <optional>
 #include <stdexcept>

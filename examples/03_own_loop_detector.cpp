@@ -8,8 +8,8 @@
 #include <array>
 #include <cstdio>
 #include <exception>
-#include <lego_loam_sc/sensor/recognise_sensor.hpp>
 #include <lego_loam_sc/io/scan_source.hpp>
+#include <lego_loam_sc/sensor/recognise_sensor.hpp>
 #include <lego_loam_sc/slam/slam.hpp>
 #include <optional>
 #include <stdexcept>

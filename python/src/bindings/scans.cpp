@@ -6,8 +6,8 @@
 #include <nanobind/stl/unique_ptr.h>
 
 #include <cmath>
-#include <lego_loam_sc/sensor/recognise_sensor.hpp>
 #include <lego_loam_sc/io/scan_source.hpp>
+#include <lego_loam_sc/sensor/recognise_sensor.hpp>
 #include <limits>
 #include <stdexcept>
 #include <string>
