@@ -8,6 +8,7 @@ import struct
 import subprocess
 
 import pytest
+
 from lego_loam_sc.compression import zstd
 from made_bags import (
     KINDS,
@@ -193,7 +194,7 @@ def test_many_faults_are_counted_and_not_all_told(tmp_path, read):
     outcome = read(write_bag(tmp_path, "mcap", messages()), "--quiet")
     assert outcome.stamps() == stamps([0])
     assert len(outcome.messages) == 6
-    assert "and 14 faults more" in outcome.messages[-1]
+    assert "and 14 more faults" in outcome.messages[-1]
 
 
 @pytest.mark.parametrize("kind", KINDS)

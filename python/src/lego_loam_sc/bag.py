@@ -157,7 +157,7 @@ def _unpack(path: Path, report: Report, stack: ExitStack) -> Path:
             for piece in unpack(packed):
                 out.write(piece)
         except InputError as error:
-            report(f"{error}; all that is whole is read")
+            report(f"{error}; all complete messages are read")
         if not out.tell():
             raise InputError(f"{path} is cut off or damaged at its beginning")
     return unpacked

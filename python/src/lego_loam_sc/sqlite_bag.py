@@ -31,9 +31,8 @@ _MESSAGES = """
 _TABLES = """
     CREATE TABLE IF NOT EXISTS topics(id INTEGER PRIMARY KEY, name, type, serialization_format);
     CREATE TABLE IF NOT EXISTS messages(id INTEGER PRIMARY KEY, topic_id, timestamp, data);"""
-# Rows whose table SQLite cannot tell, when the page that lists the pages of a table is lost. Of the
-# tables of a bag only messages has four columns and a blob in the last; the first, the id, stands
-# in the row id.
+# Rows whose table is unknown, because the page that lists the pages of the table is lost. Of the
+# tables of a bag only messages has four columns with a blob in the last; its id is the row id.
 _LOST_MESSAGES = """
     INSERT OR IGNORE INTO messages(id, topic_id, timestamp, data)
     SELECT id, c1, c2, c3 FROM lost_and_found WHERE nfield = 4 AND typeof(c3) = 'blob'"""
@@ -72,7 +71,8 @@ class SqliteBag:
         query = _MESSAGES.format(", ".join(map(str, sorted(ids))))
         last = -1
         try:
-            for last, *message in self._database.execute(query, (last,)):
+            for row_id, *message in self._database.execute(query, (last,)):
+                last = row_id
                 yield Message(*message)
         except apsw.Error as error:
             self._recover(error)
@@ -95,9 +95,9 @@ class SqliteBag:
         folder = self._stack.enter_context(tempfile.TemporaryDirectory(prefix="lego-loam-sc-"))
         copy = Path(folder) / "recovered.db3"
         recovered = _copy_what_is_whole(self._path, copy)
-        what = "all that SQLite recovers is read"
+        what = "all messages that SQLite recovers are read"
         if not recovered:
-            what = "install the command sqlite3, 3.41 or later, to read what is whole behind that"
+            what = "install the command sqlite3, 3.41 or later, to recover the rest"
         reason = " ".join(str(error).split())  # it may quote what is damaged
         self._report(f"it is cut off or damaged ({reason}); {what}")
         self._database = apsw.Connection(str(copy))
