@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -11,6 +12,7 @@
 #include "features/features.hpp"
 #include "io/blob_file.hpp"
 #include "io_test_files.hpp"
+#include "key_frames/map_cloud.hpp"
 
 namespace lego_loam_sc {
 namespace {
@@ -76,6 +78,23 @@ TEST(KeyFrames, TakeOverAStoreEmpty) {
   const KeyFrames fresh(store);
   EXPECT_EQ(store->size(), 0u);
   EXPECT_EQ(fresh.size(), 0u);
+}
+
+TEST(MapCloud, HoldsAllPointsOfAKeyFrameWhichStandInTheMapAtItsPose) {
+  const KeyFrame own = made(3);
+  const std::vector<MapPoint> points = points_of(own, 0);
+  EXPECT_EQ(points.size(),
+            own.planars.size() + own.edges.size() + own.scattered.size() + own.others.size());
+  KeyFrames key_frames;
+  key_frames.add(own);
+  const Pose T_map_key(Eigen::Translation3d(10.0, 0.0, 0.0));
+  const std::vector<MapPoint> map = make_map(key_frames, std::array{T_map_key}, 0.01);
+  ASSERT_EQ(map.size(), points.size());
+  for (std::size_t i = 0; i < map.size(); ++i) {
+    const Eigen::Vector3f shift = map[i].position - points[i].position;
+    EXPECT_LT((shift - Eigen::Vector3f(10.0f, 0.0f, 0.0f)).norm(), 1e-5f);
+    EXPECT_EQ(map[i].intensity, points[i].intensity);
+  }
 }
 
 TEST(BlobFile, SaysThatItCannotBeWrittenAndWhatIsMissing) {

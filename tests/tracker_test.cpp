@@ -108,7 +108,8 @@ TEST(Tracker, ACorrectionMovesTheMapButNotTheLivePose) {
       corrected.correct(T_new_old);
       is_corrected = true;
     }
-    const Pose expected = is_corrected ? Pose(T_new_old * plain.T_map_lidar()) : plain.T_map_lidar();
+    const Pose expected =
+        is_corrected ? Pose(T_new_old * plain.T_map_lidar()) : plain.T_map_lidar();
     const Pose error = expected.inverse() * corrected.T_map_lidar();
     EXPECT_LT(error.translation().norm(), 0.03) << k;
     EXPECT_LT(degrees(rotation_angle(error)), 0.2) << k;

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Run with: build/paper-venv/bin/python -m unittest discover bench/common -p '*_test.py'"""
 
 import unittest

@@ -8,6 +8,7 @@ import goals
 import published
 import solve
 import tables
+
 from machine import processor
 from markdown_page import filled
 

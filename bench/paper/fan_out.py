@@ -33,7 +33,7 @@ def fan_out(source, sinks, folder):
     writer = start(source, opened[0], stdout=subprocess.PIPE)
     readers = [
         start(sink, log, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL)
-        for sink, log in zip(sinks, opened[1:])
+        for sink, log in zip(sinks, opened[1:], strict=True)
     ]
     try:
         copy(writer.stdout, [reader.stdin for reader in readers])
@@ -48,7 +48,9 @@ def fan_out(source, sinks, folder):
 
 def first_fault(commands, codes, logs):
     """Exit codes above zero come before the signals that ended the others on their account."""
-    for code, command, log in sorted(zip(codes, commands, logs), key=lambda item: -item[0]):
+    for code, command, log in sorted(
+        zip(codes, commands, logs, strict=True), key=lambda item: -item[0]
+    ):
         if code != 0:
             return f"{' '.join(map(str, command))}: exit code {code}: {log.read_text().strip()}"
     return None

@@ -4,9 +4,9 @@
 import math
 
 import numpy as np
+from worlds import OURS
 
 from markdown_page import table
-from worlds import OURS
 
 REACHED, ENOUGH, MISSED, NOT_RUN = "goal reached", "must reached", "**missed**", "not run"
 NO_MEASURE = "path too short or too straight"

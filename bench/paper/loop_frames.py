@@ -2,8 +2,8 @@
 """Figure 10: the two clouds of a loop, before and after it."""
 
 import numpy as np
-
 import style
+
 from trajectory import inverse
 
 CURRENT, HISTORICAL = "#00a000", "#e02020"

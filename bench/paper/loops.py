@@ -76,7 +76,7 @@ def is_true(loop, poses):
 def revisits(positions, stamps, path):
     """For each key frame: does it come back to an earlier one? All arrays are of key frames."""
     back = np.zeros(len(positions), dtype=bool)
-    for index, (here, stamp, travelled) in enumerate(zip(positions, stamps, path)):
+    for index, (here, stamp, travelled) in enumerate(zip(positions, stamps, path, strict=True)):
         earlier = (stamps <= stamp - SECONDS) & (path <= travelled - TRAVEL)
         apart = positions[earlier] - here
         near = (np.linalg.norm(apart, axis=1) <= RADIUS) & (np.abs(apart[:, 2]) <= HEIGHT)

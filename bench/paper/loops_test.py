@@ -3,10 +3,10 @@
 
 import unittest
 
+import loops
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-import loops
 from trajectory import inverse, pose
 
 KEY_SCANS = np.arange(0, 400, 2)

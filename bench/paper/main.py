@@ -18,8 +18,9 @@ import solve
 import stages
 from evo_tool import EvoError
 from measured import World
-from program import ROOT
 from worlds import experiments
+
+from program import ROOT
 
 
 def parse():

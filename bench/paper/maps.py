@@ -4,11 +4,10 @@
 import dataclasses
 
 import numpy as np
-from matplotlib import pyplot as plt
-from scipy.spatial import cKDTree
-
 import style
+from matplotlib import pyplot as plt
 from measured import Run
+from scipy.spatial import cKDTree
 
 VOXEL = 0.1  # m, of map.ply; finer pixels would show its grid
 FLOOR_HEIGHT = 2.0  # m; a car park whose path rises more has two floors
@@ -115,7 +114,7 @@ def draw(floors, path, extent, box, width):
     pixel = max((right - left) / (width * style.DPI), VOXEL)
     panels = [(word, drawn) for word, maps in floors for drawn in maps]
     image = None
-    for axis, (word, drawn) in zip(axes, panels):
+    for axis, (word, drawn) in zip(axes, panels, strict=False):
         image = paint(axis, drawn, extent, pixel)
         style.from_above(axis, style.NAMES[drawn.run.folder.name] + word, extent)
         if box != extent:

@@ -6,12 +6,12 @@ import json
 import re
 from functools import cached_property
 
-import numpy as np
-
 import evo_tool
 import loops
-import program
+import numpy as np
 import runs
+
+import program
 import trajectory
 
 

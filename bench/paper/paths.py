@@ -2,8 +2,8 @@
 """Trajectories over truth, figures 7 and 14, and the error by axis along the way."""
 
 import numpy as np
-
 import style
+
 import trajectory
 
 # Lines that lie on each other stay visible: each is thinner than the one below it.
@@ -75,7 +75,7 @@ def city(world, folder):
 def car_parks(worlds, folder):
     """Figure 14: the two scenes, each with its errors below."""
     result, axes = style.figure(2, 2, panel=(5.0, 3.0), height_ratios=(2.0, 1.0))
-    for column, (world, scene) in enumerate(zip(worlds, ("scene #1", "scene #2"))):
+    for column, (world, scene) in enumerate(zip(worlds, ("scene #1", "scene #2"), strict=True)):
         draw_paths(axes[column], world, scene)
         draw_errors(axes[2 + column], world)
     add_legend(result, axes[0])
@@ -93,9 +93,9 @@ def drift(world, folder):
         truth, estimate = trajectory.paired(world.truth, estimate)
         errors = trajectory.started_alike(truth, estimate).positions - truth.positions
         errors = errors @ truth.poses[0][:3, :3]
-        for axis, values in zip(axes, errors.T):
+        for axis, values in zip(axes, errors.T, strict=True):
             axis.plot(truth.path, values, color=colour, lw=1.0, label=label)
-    for axis, name in zip(axes, ("x, forward", "y, left", "z, up")):
+    for axis, name in zip(axes, ("x, forward", "y, left", "z, up"), strict=True):
         axis.axhline(0.0, color="black", lw=0.5)
         axis.set_ylabel(f"{name} (m)")
     axes[0].set_title("error along the axes of the first pose, which is the true one")

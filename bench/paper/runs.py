@@ -6,6 +6,7 @@ import shutil
 import sys
 
 import fan_out
+
 import trajectory
 from program import PROGRAM, call, version
 

@@ -47,7 +47,7 @@ def read(folder):
     if not path.is_file():
         return None
     record = json.loads(path.read_text())
-    ratios = [a / b for a, b in zip(record["two_step_ms"], record["joint_ms"])]
+    ratios = [a / b for a, b in zip(record["two_step_ms"], record["joint_ms"], strict=True)]
     return {
         "saved": 1.0 - statistics.median(ratios),
         "two_step_ms": statistics.median(record["two_step_ms"]),

@@ -5,8 +5,8 @@ import pathlib
 import tempfile
 
 import numpy as np
-
 import style
+
 from program import call
 
 METHOD = "lego-loam-sc-paper"

@@ -5,8 +5,9 @@ import math
 
 import published
 import style
-from markdown_page import fixed, table
 from worlds import OURS
+
+from markdown_page import fixed, table
 
 SCENES = {"parking1": "#1", "parking2": "#2"}
 

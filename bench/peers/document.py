@@ -5,10 +5,11 @@ import pathlib
 
 import goals
 import tables
-from machine import processor
-from markdown_page import filled
 from results import Compared
 from systems import OURS
+
+from machine import processor
+from markdown_page import filled
 
 HERE = pathlib.Path(__file__).resolve().parent
 

@@ -3,8 +3,9 @@
 
 import math
 
-from markdown_page import table
 from systems import TITLES
+
+from markdown_page import table
 
 REACHED, ENOUGH, MISSED = "goal reached", "must reached", "**missed**"
 SIXTEEN, SIXTY_FOUR = (8.0, 4.0), (25.0, 12.0)  # ms of CPU per scan

@@ -28,7 +28,7 @@ class MadeStore:
                 "others": 0.0,
                 "errors": {"ate_m": {"rmse": a}} if a else None,
             }
-            for name, a, c in zip(names, ate, cpu)
+            for name, a, c in zip(names, ate, cpu, strict=True)
         }
 
     def record(self, recording, system, threads):

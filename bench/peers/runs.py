@@ -9,14 +9,14 @@ import shutil
 import subprocess
 import tempfile
 
+import measure
 import numpy as np
+import stages
+from systems import OURS, PEERS, options
 
 import environment
-import measure
 import program
-import stages
 import trajectory
-from systems import OURS, PEERS, options
 
 DRIVE = pathlib.Path(__file__).resolve().parent / "drivers/drive.py"
 RECORD = "run.json"
@@ -163,7 +163,7 @@ def errors(truth_path, estimate, scratch):
     estimate = estimate.first(known)
     paths = scratch / "truth_there.tum", scratch / "estimate.tum"
     there = trajectory.Trajectory(estimate.stamps, truth.at(estimate.stamps))
-    for path, poses in zip(paths, (there, estimate)):
+    for path, poses in zip(paths, (there, estimate), strict=True):
         trajectory.write_tum(path, poses)
     report = program.evaluate(*paths)
     del report["estimate"]  # a path on this machine

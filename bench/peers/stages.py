@@ -14,6 +14,6 @@ def of_run(scans_csv):
         rows = list(csv.DictReader(file))
     times = np.array([[float(row[f"{stage}_ms"]) for stage in STAGES] for row in rows])
     return {
-        "mean_ms": dict(zip(STAGES, times.mean(axis=0).tolist())),
+        "mean_ms": dict(zip(STAGES, times.mean(axis=0).tolist(), strict=True)),
         "slow_ms": float(np.quantile(times.sum(axis=1), 0.999, method="higher")),
     }

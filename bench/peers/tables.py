@@ -3,9 +3,10 @@
 
 import math
 
-from markdown_page import fixed, table
 from stages import STAGES
 from systems import OURS, PEERS, SYSTEMS, TITLES
+
+from markdown_page import fixed, table
 
 
 def ratios(compared, value):

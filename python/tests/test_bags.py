@@ -3,6 +3,7 @@
 
 import numpy as np
 import pytest
+
 from made_bags import (
     KINDS,
     Messages,

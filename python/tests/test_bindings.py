@@ -10,9 +10,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import PROGRAM, ROOT
 
 import lego_loam_sc as sc
+from conftest import PROGRAM, ROOT
 
 CORE = importlib.util.find_spec("lego_loam_sc._core")
 

@@ -3,9 +3,12 @@
 
 import random
 import re
+import shutil
 import struct
+import subprocess
 
 import pytest
+
 from lego_loam_sc.compression import zstd
 from made_bags import (
     KINDS,
@@ -21,6 +24,12 @@ from made_bags import (
 COUNT = 8
 UNCOMPRESSED = ["ros1", "mcap"]
 COMPRESSED = ["ros1_lz4", "ros1_bz2", "mcap_chunks", "mcap_messages", "mcap_file", "sqlite_file"]
+
+SQLITE = shutil.which("sqlite3")
+needs_recovery = pytest.mark.skipif(
+    not SQLITE or subprocess.run([SQLITE, ":memory:", ".recover"], capture_output=True).returncode,
+    reason="the command sqlite3 is not installed or has no .recover",
+)
 
 
 def stamps(numbers):
@@ -61,6 +70,7 @@ def test_a_compressed_bag_cut_off_anywhere_gives_what_can_be_unpacked(tmp_path, 
     assert len(seen) > 1  # the nearer the cut to the end, the more
 
 
+@needs_recovery
 def test_a_sqlite_bag_cut_off_anywhere_gives_every_message_whose_pages_are_there(tmp_path, read):
     bag = write_sweeps(tmp_path, "sqlite", COUNT, points=2000)
     data = storage_file(bag).read_bytes()
@@ -70,12 +80,13 @@ def test_a_sqlite_bag_cut_off_anywhere_gives_every_message_whose_pages_are_there
     for cut in range(len(data) - page, page, -page):
         outcome = read(copy_bag(bag, tmp_path / "cut", data[:cut]), "--quiet")
         assert outcome.stamps() == stamps(range(len(outcome.scans)))
-        # The pages that list the first two messages stand behind these.
+        # The page that lists a message may stand behind it.
         whole = sum(end <= cut for end in ends)
         assert whole - 2 <= len(outcome.scans) <= whole, cut
         assert outcome.exit_code == 1
 
 
+@needs_recovery
 def test_a_long_sqlite_bag_is_read_though_the_root_of_its_pages_points_behind_the_cut(
     tmp_path, read
 ):
@@ -87,6 +98,21 @@ def test_a_long_sqlite_bag_is_read_though_the_root_of_its_pages_points_behind_th
         assert outcome.stamps() == stamps(range(len(outcome.scans)))
         assert len(outcome.scans) == pytest.approx(count * share, abs=0.02 * count)
         assert outcome.exit_code == 1
+
+
+def test_a_damaged_sqlite_bag_asks_for_the_command_sqlite3_where_it_is_missing(
+    tmp_path, read, monkeypatch
+):
+    bag = write_sweeps(tmp_path, "sqlite", COUNT, points=2000)
+    data = bytearray(storage_file(bag).read_bytes())
+    page = data.index(sweep(5, 2000).tobytes()[:64]) // 4096 * 4096
+    data[page : page + 4096] = bytes(4096)
+    monkeypatch.setenv("PATH", "/nowhere")
+    outcome = read(copy_bag(bag, tmp_path / "bad", bytes(data)), "--quiet")
+    assert outcome.exit_code == 1
+    (sentence,) = outcome.messages
+    assert "install the command sqlite3" in sentence
+    assert outcome.stamps() == []  # counting the messages meets the damage
 
 
 def test_a_ros_1_bag_that_was_never_closed_is_read_and_says_so(tmp_path, read):
@@ -168,7 +194,7 @@ def test_many_faults_are_counted_and_not_all_told(tmp_path, read):
     outcome = read(write_bag(tmp_path, "mcap", messages()), "--quiet")
     assert outcome.stamps() == stamps([0])
     assert len(outcome.messages) == 6
-    assert "and 14 faults more" in outcome.messages[-1]
+    assert "and 14 more faults" in outcome.messages[-1]
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import pytest
+
 from conftest import PROGRAM, ROOT, needs_program, parse_stream
 from made_bags import storage_file, write_scans
 from test_capture import pcap

@@ -3,6 +3,7 @@
 
 import numpy as np
 import pytest
+
 from made_bags import START_NS, Messages, stamp_of, write_bag
 
 RINGS, COLUMNS = 16, 90

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import PROGRAM, needs_program
 
+from conftest import PROGRAM, needs_program
 from lego_loam_sc.report import geometry
 from lego_loam_sc.report.main import main
 from lego_loam_sc.report.results import read_results
@@ -112,7 +112,7 @@ def test_a_killed_run_is_shown_as_far_as_it_went(run, tmp_path):
     (folder / "scans.csv").write_text(table[: len(table) - 40])  # in the middle of a line
     assert main([str(folder)]) == 0
     page = (folder / "report.html").read_text()
-    assert "<h1>killed (broken off)</h1>" in page
+    assert "<h1>killed (ended early)</h1>" in page
     assert "59 in 5.9 s" in page
 
 

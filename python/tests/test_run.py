@@ -7,6 +7,7 @@ import subprocess
 import time
 
 import pytest
+
 from conftest import PROGRAM, needs_program, parse_stream
 from made_bags import copy_bag, write_scans
 
@@ -95,7 +96,7 @@ def test_a_reader_that_breaks_off_is_told_and_its_scans_count(simulated, tmp_pat
     outcome = subprocess.run(command, env=environment, capture_output=True, text=True)
     assert outcome.returncode == 1
     (sentence,) = outcome.stderr.splitlines()
-    assert "broke off with code 137" in sentence
+    assert "failed with code 137" in sentence
     assert len((tmp_path / "result/trajectory.tum").read_text().splitlines()) == SCANS
 
 

@@ -11,27 +11,27 @@
 
 namespace lego_loam_sc {
 
-/// What a run that is killed leaves for `--resume`, in two files of its folder: `checkpoint` is
-/// replaced as a whole each time, `checkpoint.growth` gets what has grown. An empty `checkpoint`
-/// marks the folder of a run that has not come far enough.
+/// The state that a killed run leaves for `--resume`, in two files of its folder: `checkpoint` is
+/// replaced at each save, `checkpoint.growth` is appended to. An empty `checkpoint` marks the
+/// folder of a run that was killed before its first save.
 class Checkpoint {
  public:
-  /// Marks the folder unless it is marked.
+  /// Marks the folder if it is not marked yet.
   explicit Checkpoint(const std::filesystem::path& folder);
 
   static bool marks(const std::filesystem::path& folder);
 
-  /// Whether there is a state to be loaded.
+  /// True when there is a state to load.
   bool holds_state() const;
 
-  /// Calls `read` with the state. Throws InputError when the files are damaged or another
-  /// program's.
+  /// Calls `read` with the state. Throws InputError when the files are damaged or of another
+  /// version.
   void load(const std::function<void(StateReader&)>& read);
 
   /// Saves what `write` writes, unless it returns false. Throws InputError when the disk is full.
   void save(const std::function<bool(StateWriter&)>& write);
 
-  /// For a run that is done.
+  /// Removes both files when the run is complete.
   void remove();
 
  private:

@@ -11,8 +11,8 @@ namespace lego_loam_sc {
 
 // Programs of the companion package, python/, as children of this one.
 
-/// The path of the program beside this one or in the virtual environment of the checkout that this
-/// one was built in; else its name alone, for the search in PATH.
+/// The path of a program beside this one or in the virtual environment of the checkout that this
+/// one was built in; otherwise its name, to be searched in PATH.
 std::string find_program(const std::string& name);
 
 /// Starts a program, by its path or its name in PATH, with these arguments. Returns 0, or the error
@@ -25,8 +25,8 @@ int start_program(const std::string& program, std::vector<std::string> arguments
 /// ended it, as a shell does.
 int wait_for(pid_t process);
 
-/// "by the companion package, and NAME does not start (...); install it ...": the end of a
-/// sentence.
+/// The end of a sentence: "by the companion package, and NAME does not start (...); install it
+/// ...".
 std::string explain_no_start(const std::string& name, int error);
 
 }  // namespace lego_loam_sc

@@ -17,8 +17,8 @@ bool is_known_verb(const CLI::App& app, const std::string& word);
 /// was built in, and in PATH. Returns only when there is none.
 void run_external(char** argv);
 
-/// Runs the companion package's lego-loam-sc-report on the folder of a run and waits for it; false
-/// when it failed and said why. Throws InputError when it is not installed.
+/// Runs the companion package's lego-loam-sc-report on what run or inspect left and waits for it;
+/// false when it failed and said why. Throws InputError when it is not installed.
 bool make_report(const std::string& folder, bool quiet);
 
 }  // namespace lego_loam_sc

@@ -11,26 +11,26 @@
 
 namespace lego_loam_sc {
 
-/// The health of the scans of a run, each and in sum. The delay stands apart throughout: it alone
-/// depends on the machine and differs from run to run, and what does not is compared byte by byte.
+/// The health of each scan and of the whole run. The delay is kept apart: it depends on the machine
+/// and differs from run to run, while the other columns are compared byte by byte.
 class HealthLog {
  public:
   explicit HealthLog(SensorModel sensor) : sensor_(std::move(sensor)) {}
 
-  /// What scans.csv says of the health of a scan.
+  /// The health columns of scans.csv.
   struct Line {
     std::string warnings;     ///< names of the vitals at this level, separated by blanks
     std::string errors;       ///< the same
     double delay_ms;          ///< by which a live run would be behind the sensor
     HealthLevel delay_level;  ///< of `delay_ms`
   };
-  /// Judges the next scan.
+  /// Evaluates the next scan.
   Line add(const ScanReport& report);
 
-  /// Of one vital over all scans: its levels, how many scans were at each, and its worst value with
-  /// the scan that had it, null when no scan had any.
+  /// One vital over all scans: its levels, the number of scans at each, and its worst value with
+  /// the scan that had it; null when no scan had a value.
   nlohmann::ordered_json to_json(Vital vital) const;
-  /// The same of each vital by its name, but of the delay.
+  /// The same for each vital except the delay, by name.
   nlohmann::ordered_json to_json() const;
 
   /// A line for the terminal for each vital that was not always ok.

@@ -10,6 +10,7 @@
 
 #include "app/commands.hpp"
 #include "app/common_options.hpp"
+#include "app/external_command.hpp"
 #include "app/run_folder.hpp"
 #include "app/scan_input.hpp"
 #include "app/stage_files.hpp"
@@ -25,11 +26,6 @@ namespace {
 struct Options : InputOptions {
   CommonOptions common;
   std::optional<std::filesystem::path> output;
-};
-
-struct ScanWithFacts {
-  Scan scan;
-  DatasetFacts facts;
 };
 
 ScanWithFacts read_scan(const Options& options) {
@@ -65,7 +61,7 @@ std::vector<Eigen::Vector3f> returns_of(const Scan& scan) {
   return points;
 }
 
-// What came in, whatever the sensor.
+// The scan as it was read, without a sensor model.
 std::string describe_scan(const Scan& scan) {
   const std::vector<Eigen::Vector3f> points = returns_of(scan);
   std::string text = "scan      " + std::to_string(scan.size()) + " points, " +
@@ -137,15 +133,26 @@ std::string describe_stages(const Scan& scan, const ScanStages& stages, const Se
   return text;
 }
 
-void inspect(const Options& options) {
+// The clouds are the result; a page of them is made where the companion package is installed.
+bool show(const std::filesystem::path& folder) {
+  std::printf("clouds of the stages in %s\n", folder.c_str());
+  try {
+    return make_report(folder, false);
+  } catch (const InputError& error) {
+    spdlog::warn("{}", error.what());
+    return true;
+  }
+}
+
+void inspect(const Options& options, int& exit_code) {
   const CommonOptions& common = options.common;
   const Settings settings = load_settings(common.method, common.config, common.assignments);
   const auto [scan, facts] = read_scan(options);
   const std::string summary = describe_scan(scan);
   std::printf("%s", summary.c_str());
-  std::fflush(stdout);  // it helps with the error that may follow
+  std::fflush(stdout);  // before an error about the sensor
   const SensorModel sensor = choose_sensor(common.sensor, scan, facts);
-  // What does not fit is what one wants to look at.
+  // No error: a scan that does not fit the sensor is the one to inspect.
   if (const auto mismatch = sensor_mismatch(scan, sensor)) spdlog::warn("{}", *mismatch);
   const ScanStages stages = make_stages(scan, sensor, settings);
   const std::string found = describe_stages(scan, stages, sensor);
@@ -153,21 +160,21 @@ void inspect(const Options& options) {
   if (!options.output) return;
   const std::filesystem::path folder = make_run_folder(options.output, options.input);
   write_stage_clouds(folder, stages);
-  write_stage_page(folder, stages, sensor, options.input + "\n\n" + summary + found);
-  std::printf("range image in %s, clouds beside it\n", (folder / "index.html").c_str());
+  write_stage_facts(folder, stages, sensor, options.input, summary + found);
+  if (!show(folder)) exit_code = 1;
 }
 
 }  // namespace
 
-void add_inspect(CLI::App& app) {
+void add_inspect(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand(
       "inspect", "Show what the front end makes of one scan: rows, ground, clusters, features");
   auto options = std::make_shared<Options>();
   add_input_options(*command, *options, "SCAN", "a scan, or anything that run takes");
   command->add_option("-o,--output", options->output,
-                      "folder for the range image and coloured clouds, new or empty");
+                      "folder for coloured clouds and a page that shows them, new or empty");
   add_common_options(*command, options->common);
-  command->callback([options] { inspect(*options); });
+  command->callback([options, &exit_code] { inspect(*options, exit_code); });
 }
 
 }  // namespace lego_loam_sc

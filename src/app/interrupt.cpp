@@ -10,20 +10,20 @@
 namespace lego_loam_sc {
 namespace {
 
-// The signal may come to one thread and be looked for by another.
-std::atomic<bool> asked_to_end = false;
+// Set by a signal handler on any thread, read by others.
+std::atomic<bool> end_requested = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
-int nothing_to_read = -1;  // a file that is at its end
+int dev_null = -1;
 
-void ask_to_end(int number) {
-  asked_to_end = true;
-  dup2(nothing_to_read, STDIN_FILENO);  // for a read that begins between this and the next look
+void request_end(int number) {
+  end_requested = true;
+  dup2(dev_null, STDIN_FILENO);  // so that a read which begins before the flag is seen ends at once
   signal(number, SIG_DFL);
 }
 
 void do_nothing(int) {}
 
-// Without SA_RESTART, so that a read which waits for the next scan of a stream ends.
+// Without SA_RESTART, so that a blocked read of a stream returns.
 void handle(int number, void (*handler)(int)) {
   struct sigaction action = {};
   action.sa_handler = handler;
@@ -33,13 +33,13 @@ void handle(int number, void (*handler)(int)) {
 }  // namespace
 
 void catch_interrupts() {
-  nothing_to_read = open("/dev/null", O_RDONLY | O_CLOEXEC);
-  handle(SIGINT, ask_to_end);
-  handle(SIGTERM, ask_to_end);
+  dev_null = open("/dev/null", O_RDONLY | O_CLOEXEC);
+  handle(SIGINT, request_end);
+  handle(SIGTERM, request_end);
 }
 
 bool interrupted() {
-  return asked_to_end;
+  return end_requested;
 }
 
 void end_read(std::thread& thread) {

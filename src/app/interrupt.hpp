@@ -5,14 +5,14 @@
 
 namespace lego_loam_sc {
 
-/// Makes SIGINT and SIGTERM ask for an orderly end; a second one ends the process at once.
+/// Makes SIGINT and SIGTERM request an orderly end; a second one ends the process at once.
 void catch_interrupts();
 
-/// True once an end was asked for.
+/// True once an end was requested.
 bool interrupted();
 
-/// Makes a read that `thread` waits in return. One that only begins now is not reached: call again
-/// until the thread shows that it went on.
+/// Makes a blocked read of `thread` return. A read that begins after the call is not affected: call
+/// again until the thread has gone on.
 void end_read(std::thread& thread);
 
 }  // namespace lego_loam_sc

@@ -44,7 +44,7 @@ int main(int argc, char** argv) {
   add_match(app);
   add_evaluate(app);
   add_config(app);
-  add_inspect(app);
+  add_inspect(app, exit_code);
   add_sensor(app);
   app.footer("Any other verb runs lego-loam-sc-VERB from PATH.");
 

@@ -7,6 +7,7 @@
 
 #include "app/commands.hpp"
 #include "app/common_options.hpp"
+#include "app/scan_input.hpp"
 #include "core/error.hpp"
 #include "io/scan_source.hpp"
 #include "io/settings_yaml.hpp"
@@ -19,11 +20,6 @@ struct Options {
   CommonOptions common;
   std::string a, b;
   bool json = false;
-};
-
-struct ScanWithFacts {
-  Scan scan;
-  DatasetFacts facts;
 };
 
 ScanWithFacts only_scan(const std::string& path) {

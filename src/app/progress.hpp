@@ -7,7 +7,7 @@
 
 namespace lego_loam_sc {
 
-/// A progress bar on standard error when that is a terminal, else a line now and then.
+/// A progress bar on standard error when that is a terminal, otherwise a line every ten seconds.
 class Progress {
  public:
   /// `total` is the number of steps when it is known; `quiet` shows nothing.

@@ -77,7 +77,8 @@ RecordingReader::RecordingReader(const std::string& input, const std::optional<s
 }
 
 int RecordingReader::wait() {
-  make_standard_input(open("/dev/null", O_RDONLY));  // it must not wait for us to read on
+  make_standard_input(
+      open("/dev/null", O_RDONLY));  // so that the program does not block on a full pipe
   return wait_for(std::exchange(process_, -1));
 }
 

@@ -12,14 +12,14 @@ namespace lego_loam_sc {
 /// package reads.
 bool is_recording(const std::string& input);
 
-/// The companion package's reader at work: its scan stream takes the place of standard input.
+/// A running lego-loam-sc-read, whose scan stream takes the place of standard input.
 class RecordingReader {
  public:
   /// Starts it; its messages go to standard error. Throws InputError when it is not installed.
   RecordingReader(const std::string& input, const std::optional<std::string>& topic, bool quiet);
 
-  /// Ends the stream and waits for the program: 0 when all was well, 1 when it found a fault and
-  /// said so, another number when it broke off. To be called once.
+  /// Closes the stream and waits for the program: 0 on success, 1 when it printed a fault of the
+  /// input, another number when it failed. To be called once.
   int wait();
 
  private:

@@ -93,7 +93,7 @@ RunSummary ResultWriter::finish(const Slam& slam, const DatasetFacts& dataset,
   write_tum(folder_ / "trajectory.tum", trajectory);
   write_kitti(folder_ / "trajectory_kitti.txt", trajectory, dataset.T_camera_lidar);
   write_graph(folder_ / "graph.g2o", slam.graph());
-  // What goes wrong from here on is said in the end: the rest of the results is worth no less.
+  // A fault from here on is thrown at the end, after all other files are written.
   std::optional<InputError> fault;
   std::size_t map_points = 0;
   try {

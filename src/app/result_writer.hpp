@@ -23,15 +23,15 @@ class ResultWriter {
  public:
   ResultWriter(std::filesystem::path folder, const SensorModel& sensor, const Settings& settings);
 
-  /// Begins the files; what a killed run has left of them goes. A state that is read goes on with
-  /// them instead.
+  /// Begins the files and drops what a killed run has left of them. A resumed run reads its state
+  /// instead and appends.
   void begin();
 
   /// Writes the lines of the next scan.
   void add(const ScanReport& report);
 
-  /// Writes the files that need the whole run. Returns the summary. Throws
-  /// InputError when a file cannot be written and, after all are, when the truth is of another
+  /// Writes the files that need the whole run. Returns the summary. Throws InputError when a file
+  /// cannot be written or, after writing all, when the truth is of another
   /// recording.
   RunSummary finish(const Slam& slam, const DatasetFacts& dataset, const RunFacts& facts);
 

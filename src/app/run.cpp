@@ -2,9 +2,11 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -56,7 +58,7 @@ std::filesystem::path folder_of(const Options& options) {
                    ": holds no checkpoint to resume from; a run that is done has none");
 }
 
-// What a checkpoint says besides the state of the SLAM and of the tables.
+// The position of a run in its input, saved with each checkpoint.
 struct Bookmark {
   std::string settings, sensor;     // as YAML
   std::size_t taken = 0;            // of the input
@@ -70,37 +72,98 @@ struct Bookmark {
   }
 };
 
-// Goes on from the checkpoint. `mark` is where the run is: it has settings, sensor and the last
-// scan taken.
-void resume(const Options& options, Checkpoint& checkpoint, RunInput& input, ResultWriter& writer,
-            Slam& slam, Bookmark& mark) {
+RunFacts facts_of(const Options& options) {
+  RunFacts facts;
+  facts.input = options.input;
+  facts.method = options.common.method;
+  facts.threads = options.threads;
+  if (options.truth) facts.truth = {options.truth->string(), read_poses(*options.truth)};
+  return facts;
+}
+
+// The sensor of a run, to which `scan` has to fit.
+SensorModel sensor_of(const Options& options, const Scan& scan, const ScanSource& source) {
+  const SensorModel sensor = choose_sensor(options.common.sensor, scan, source.facts());
+  if (const auto mismatch = sensor_mismatch(scan, sensor)) throw InputError(*mismatch);
+  if (!options.quiet) {
+    spdlog::info("sensor {}, method {}", sensor.name, options.common.method);
+    for (const std::string& note : source.notes()) spdlog::info("{}", note);
+  }
+  return sensor;
+}
+
+// The SLAM of a run with all that it writes.
+struct Work {
+  Checkpoint checkpoint;
+  ResultWriter writer;
+  Slam slam;
+  Bookmark mark;
+
+  Work(const Options& options, const std::filesystem::path& folder, const SensorModel& sensor,
+       const Settings& settings)
+      : checkpoint(folder),
+        writer(folder, sensor, settings),
+        slam(sensor, settings, std::max(options.threads - 1, 1), {},
+             std::make_shared<BlobFile>(folder / "key_frame_points.bin")),
+        mark{.settings = to_yaml(settings), .sensor = to_yaml(sensor)} {}
+};
+
+// Goes on from the checkpoint.
+void resume(const Options& options, RunInput& input, Work& work) {
   Bookmark saved;
-  checkpoint.load([&](StateReader& reader) {
+  work.checkpoint.load([&](StateReader& reader) {
     reader(saved);
-    if (saved.settings != mark.settings || saved.sensor != mark.sensor)
+    if (saved.settings != work.mark.settings || saved.sensor != work.mark.sensor)
       throw InputError(options.output->string() +
                        ": was begun with other settings or another sensor; give those of its "
                        "settings.yaml and sensor.yaml to resume it");
-    reader(writer);
-    slam.read(reader);
+    reader(work.writer);
+    work.slam.read(reader);
   });
-  const std::int64_t stamp_ns = input.skip_to(saved.taken, saved.faults).value_or(mark.stamp_ns);
+  const std::optional<std::int64_t> skipped = input.skip_to(saved.taken, saved.faults);
+  const std::int64_t stamp_ns = skipped.value_or(work.mark.stamp_ns);
   if (!interrupted() && (input.taken() != saved.taken || stamp_ns != saved.stamp_ns))
     throw InputError(options.output->string() + ": was begun with other scans than those of " +
                      options.input + "; give the same INPUT, --first and --count to resume it");
-  mark = std::move(saved);
+  work.mark = std::move(saved);
+}
+
+void save_checkpoint(const RunInput& input, double wall_seconds, Work& work) {
+  work.mark.taken = input.taken();
+  work.mark.faults = input.faults();
+  work.mark.wall_seconds = wall_seconds;
+  work.checkpoint.save([&](StateWriter& state) {
+    state(work.mark, work.writer);
+    return work.slam.write(state);
+  });
+}
+
+// Processes the scans already read, then those that follow. `wall_seconds` gives the time so far.
+void process_scans(const Options& options, RunInput& input, std::deque<Scan> scans,
+                   const std::function<double()>& wall_seconds, Work& work) {
+  Progress progress(input.expected(), options.quiet);
+  double saved = wall_seconds();
+  while (!interrupted()) {
+    if (scans.empty()) {
+      std::optional<Scan> scan = input.next();
+      if (!scan) break;
+      scans.push_back(std::move(*scan));
+    }
+    work.writer.add(work.slam.process(scans.front()));
+    progress.step();
+    work.mark.stamp_ns = scans.front().stamp_ns;
+    scans.pop_front();
+    if (!scans.empty() || wall_seconds() - saved < options.checkpoint_seconds) continue;
+    save_checkpoint(input, wall_seconds(), work);
+    saved = wall_seconds();
+  }
 }
 
 void run(const Options& options, int& exit_code) {
   const auto begin = std::chrono::steady_clock::now();
   const CommonOptions& common = options.common;
   const Settings settings = load_settings(common.method, common.config, common.assignments);
-  RunFacts facts;
-  facts.input = options.input;
-  facts.method = common.method;
-  facts.threads = options.threads;
-  if (options.truth) facts.truth = {options.truth->string(), read_poses(*options.truth)};
-
+  RunFacts facts = facts_of(options);
   RunInput input(options, options.count, options.quiet);
   std::deque<Scan> scans = input.leading();
   if (scans.empty() && !input.finish_reader()) {
@@ -110,59 +173,31 @@ void run(const Options& options, int& exit_code) {
   if (scans.empty())
     throw InputError(options.input + ": no scan could be read; nothing was written");
   const DatasetFacts& dataset = input.source().facts();
-  const SensorModel sensor = choose_sensor(common.sensor, scans.back(), dataset);
-  if (const auto mismatch = sensor_mismatch(scans.back(), sensor)) throw InputError(*mismatch);
+  const SensorModel sensor = sensor_of(options, scans.back(), input.source());
   facts.sensor = sensor.name;
-  if (!options.quiet) {
-    spdlog::info("sensor {}, method {}", sensor.name, common.method);
-    for (const std::string& note : input.source().notes()) spdlog::info("{}", note);
-  }
   if (options.threads > 1) input.read_ahead();
 
   const std::filesystem::path folder = folder_of(options);
-  Checkpoint checkpoint(folder);
-  ResultWriter writer(folder, sensor, settings);
-  Slam slam(sensor, settings, std::max(options.threads - 1, 1), {},
-            std::make_shared<BlobFile>(folder / "key_frame_points.bin"));
+  Work work(options, folder, sensor, settings);
+  work.mark.stamp_ns = scans.back().stamp_ns;
   catch_interrupts();
-  Bookmark mark{to_yaml(settings), to_yaml(sensor), 0, scans.back().stamp_ns, {}, 0.0};
-  if (checkpoint.holds_state()) {
-    resume(options, checkpoint, input, writer, slam, mark);
+  if (work.checkpoint.holds_state()) {
+    resume(options, input, work);
     scans.clear();
   } else {
-    writer.begin();
+    work.writer.begin();
   }
-  const double wall_seconds_before = mark.wall_seconds;
-  auto saved = std::chrono::steady_clock::now();
-  {
-    Progress progress(input.expected(), options.quiet);
-    while (!interrupted()) {
-      if (scans.empty()) {
-        std::optional<Scan> scan = input.next();
-        if (!scan) break;
-        scans.push_back(std::move(*scan));
-      }
-      writer.add(slam.process(scans.front()));
-      progress.step();
-      mark.stamp_ns = scans.front().stamp_ns;
-      scans.pop_front();
-      if (!scans.empty() || seconds_since(saved) < options.checkpoint_seconds) continue;
-      mark.taken = input.taken();
-      mark.faults = input.faults();
-      mark.wall_seconds = wall_seconds_before + seconds_since(begin);
-      checkpoint.save([&](StateWriter& state) {
-        state(mark, writer);
-        return slam.write(state);
-      });
-      saved = std::chrono::steady_clock::now();
-    }
-  }
+  const auto wall_seconds = [before = work.mark.wall_seconds, begin] {
+    return before + seconds_since(begin);
+  };
+  process_scans(options, input, std::move(scans), wall_seconds, work);
+
   input.finish_reader();
   facts.faults = input.faults();
   facts.interrupted = interrupted();
-  facts.wall_seconds = wall_seconds_before + seconds_since(begin);
-  const RunSummary summary = writer.finish(slam, dataset, facts);
-  checkpoint.remove();
+  facts.wall_seconds = wall_seconds();
+  const RunSummary summary = work.writer.finish(work.slam, dataset, facts);
+  work.checkpoint.remove();
   if (!options.quiet)
     std::printf("%sresults in %s\n%s\n", summary.text.c_str(), folder.c_str(),
                 summary.verdict.c_str());

@@ -19,7 +19,7 @@ struct NamedTruth {
   PoseFile poses;
 };
 
-/// What `summary.json` says of the run besides what the SLAM knows.
+/// What `summary.json` says of a run that the SLAM does not know.
 struct RunFacts {
   std::string input;
   std::string method;
@@ -31,7 +31,7 @@ struct RunFacts {
   std::optional<NamedTruth> truth;
 };
 
-/// What became of the scans of a run and of the loops among them, in numbers.
+/// Counts of the scans and loops of a run by outcome.
 struct RunCounts {
   std::size_t scans = 0;
   std::size_t accepted_loops = 0;

@@ -33,16 +33,16 @@ void RunInput::note(const std::string& fault) {
 std::optional<Scan> RunInput::next() {
   while (auto item = take()) {
     if (auto* scan = std::get_if<Scan>(&*item)) return std::move(*scan);
-    if (interrupted()) return std::nullopt;  // it cut the read off, the input is not to blame
+    if (interrupted()) return std::nullopt;  // the signal ended the read: no fault of the input
     note(std::get<std::string>(*item));
   }
   return std::nullopt;
 }
 
 std::deque<Scan> RunInput::leading() {
-  constexpr std::size_t kTelling = 1000;  // points
+  constexpr std::size_t kMinPoints = 1000;  // to recognise a sensor by
   std::deque<Scan> scans;
-  while (scans.empty() || scans.back().size() < kTelling) {
+  while (scans.empty() || scans.back().size() < kMinPoints) {
     std::optional<Scan> scan = next();
     if (!scan) break;
     scans.push_back(std::move(*scan));
@@ -63,11 +63,12 @@ std::optional<std::int64_t> RunInput::skip_to(std::size_t taken, std::vector<std
 
 bool RunInput::finish_reader() {
   const int exit_code = at_end_ ? input_.wait_for_reader() : 0;
-  if (exit_code == 1)  // it has said itself what it found
-    faults_.push_back(options_.input + " was not read in full, lego-loam-sc-read said why");
+  if (exit_code == 1)  // it has printed the reason
+    faults_.push_back(options_.input +
+                      " was not read in full, see the message of lego-loam-sc-read");
   else if (exit_code != 0)
-    note(options_.input + ": lego-loam-sc-read broke off with code " + std::to_string(exit_code) +
-         "; the scans before that count");
+    note(options_.input + ": lego-loam-sc-read failed with code " + std::to_string(exit_code) +
+         "; the scans read before that are used");
   return exit_code == 0;
 }
 

@@ -15,35 +15,35 @@
 
 namespace lego_loam_sc {
 
-/// The scans of a run: those of its input from --first on, at most --count of them. What is wrong
-/// with the input is said as it comes and remembered, but ends nothing.
+/// The scans of a run: those of its input from --first on, at most --count of them. Faults of the
+/// input are printed as they occur and collected; the run goes on.
 class RunInput {
  public:
   /// `count`: as --count. Throws InputError when the input cannot be opened.
   RunInput(const InputOptions& options, std::optional<std::size_t> count, bool quiet);
 
-  /// Reads on a thread of its own from now on, which also changes the notes of the source.
+  /// Reads on a thread of its own from now on, which also writes the notes of the source.
   void read_ahead() { prefetcher_.emplace(input_.source()); }
 
   /// The next good scan; nothing after the last and once the run is interrupted.
   std::optional<Scan> next();
 
-  /// The scans up to the first that shows enough to tell the sensor by: a recording may start
-  /// blind.
+  /// The scans up to the first with enough points to recognise the sensor: the first ones of a
+  /// recording may be nearly empty.
   std::deque<Scan> leading();
 
-  /// Goes on where another run was that had taken `taken` scans and seen these faults, and says
-  /// none of them again. Returns the stamp of the last scan that it passes, if any.
+  /// Skips the `taken` scans of an earlier run and takes over its faults without printing them
+  /// again. Returns the stamp of the last scan skipped, if any.
   std::optional<std::int64_t> skip_to(std::size_t taken, std::vector<std::string> faults);
 
-  /// Ends the reader of a recording once its scans are. False when it had a fault.
+  /// Ends the reader of a recording after its last scan. False when it reported a fault.
   bool finish_reader();
 
-  /// How many scans were taken, bad ones among them.
+  /// Number of scans taken, bad ones included.
   std::size_t taken() const { return taken_; }
-  /// How many are to be expected in all, when that is known.
+  /// Number of scans expected in all, when known.
   std::optional<std::size_t> expected() const;
-  /// What was wrong, a sentence each.
+  /// Faults so far, a sentence each.
   const std::vector<std::string>& faults() const { return faults_; }
   const ScanSource& source() const { return input_.source(); }
 

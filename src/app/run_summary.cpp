@@ -40,7 +40,7 @@ Resources used_resources() {
           static_cast<double>(usage.ru_maxrss) / 1024.0};
 }
 
-// As Linux names it; where it does not, as on some ARM boards, nothing.
+// Empty where Linux does not name it, as on some ARM boards.
 std::string processor_name() {
   std::ifstream file("/proc/cpuinfo");
   for (std::string line; std::getline(file, line);)
@@ -51,26 +51,26 @@ std::string processor_name() {
   return "";
 }
 
-// KITTI's truth is the camera's.
-PoseFile of_lidar(PoseFile truth, const std::optional<Pose>& T_camera_lidar) {
+// KITTI gives the truth in the camera frame.
+PoseFile to_lidar_frame(PoseFile truth, const std::optional<Pose>& T_camera_lidar) {
   if (truth.has_stamps || !T_camera_lidar) return truth;
   for (StampedPose& stamped : truth.poses)
     stamped.pose = T_camera_lidar->inverse() * stamped.pose * *T_camera_lidar;
   return truth;
 }
 
-// What the numbers of the first lines leave out, a line for each that there is.
+// A line for each exceptional event of the run.
 std::string notes_of(const RunCounts& counts, int maps) {
   std::string text;
   for (const auto& [status, count] : counts.statuses)
     if (status != to_string(Status::ok)) text += std::to_string(count) + " scans " + status + "\n";
   if (counts.stamp_jumps > 0)
-    text += "jumps of the stamps that were bridged: " + std::to_string(counts.stamp_jumps) +
-            ", the first at scan " + std::to_string(counts.first_jump_scan) + " by " +
-            to_fixed(counts.first_jump_s, 1) + " s\n";
+    text += "time stamp jumps bridged: " + std::to_string(counts.stamp_jumps) + ", first at scan " +
+            std::to_string(counts.first_jump_scan) + " by " + to_fixed(counts.first_jump_s, 1) +
+            " s\n";
   if (maps > 1)
-    text += "the way was lost: " + std::to_string(maps) +
-            " maps that no loop joins, where they lie to each other is a guess\n";
+    text += "tracking was lost: " + std::to_string(maps) +
+            " maps that no loop joins, their relative poses are unconstrained\n";
   return text;
 }
 
@@ -138,7 +138,7 @@ RunSummary summarise(const Slam& slam, const Trajectory& trajectory, std::size_t
 
 void add_errors(const NamedTruth& truth, const DatasetFacts& dataset, const Trajectory& odometry,
                 const Trajectory& trajectory, RunSummary& summary) {
-  const PoseFile poses = of_lidar(truth.poses, dataset.T_camera_lidar);
+  const PoseFile poses = to_lidar_frame(truth.poses, dataset.T_camera_lidar);
   std::vector<NamedError> errors;
   try {
     errors = {{"trajectory", evaluate(associate(poses, {trajectory, true}))},

@@ -26,6 +26,12 @@ struct InputOptions {
 void add_input_options(CLI::App& command, InputOptions& options, const std::string& name,
                        const std::string& help);
 
+/// A scan and what its input says of all scans.
+struct ScanWithFacts {
+  Scan scan;
+  DatasetFacts facts;
+};
+
 /// The scans of an input, those of a recording through the companion package's reader.
 class ScanInput {
  public:

@@ -10,8 +10,8 @@
 namespace lego_loam_sc {
 namespace {
 
-// Nobody rings a bell when a signal comes.
-constexpr std::chrono::milliseconds kGlance(50);
+// A signal does not notify a condition variable, so waiting is polled.
+constexpr std::chrono::milliseconds kPollInterval(50);
 
 }  // namespace
 
@@ -30,16 +30,16 @@ ScanPrefetcher::~ScanPrefetcher() {
   std::unique_lock lock(mutex_);
   stopping_ = true;
   changed_.notify_all();
-  // A stream may hold the reader for ever.
-  while (!changed_.wait_for(lock, kGlance, [&] { return ended_; })) end_read(thread_);
+  // A read of a stream may block for ever.
+  while (!changed_.wait_for(lock, kPollInterval, [&] { return ended_; })) end_read(thread_);
   lock.unlock();
   thread_.join();
 }
 
 std::optional<ScanOrFault> ScanPrefetcher::next() {
   std::unique_lock lock(mutex_);
-  const auto may_go_on = [&] { return !queue_.empty() || ended_; };
-  while (!changed_.wait_for(lock, kGlance, may_go_on))
+  const auto ready = [&] { return !queue_.empty() || ended_; };
+  while (!changed_.wait_for(lock, kPollInterval, ready))
     if (interrupted()) return std::nullopt;
   if (queue_.empty()) return std::nullopt;
   ScanOrFault front = std::move(queue_.front());

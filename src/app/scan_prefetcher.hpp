@@ -15,7 +15,7 @@
 
 namespace lego_loam_sc {
 
-/// A scan, or the sentence that says why there is none.
+/// A scan, or the reason why it could not be read.
 using ScanOrFault = std::variant<Scan, std::string>;
 
 /// Reads ahead on a thread of its own, a few scans at most.
@@ -26,8 +26,8 @@ class ScanPrefetcher {
   ScanPrefetcher(const ScanPrefetcher&) = delete;
   ScanPrefetcher& operator=(const ScanPrefetcher&) = delete;
 
-  /// The next scan or fault in the order of the source; nothing after the last, nor when an
-  /// interrupt comes while none is there.
+  /// The next scan or fault in the order of the source; nothing after the last one or when the wait
+  /// for it is interrupted.
   std::optional<ScanOrFault> next();
 
  private:

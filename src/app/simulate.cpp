@@ -87,7 +87,7 @@ LidarSettings settings_of(const Options& options, const World& world, const Sens
 }
 
 void simulate(const Options& options) {
-  std::signal(SIGPIPE, SIG_IGN);  // a reader that goes away is an error like a full disk
+  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error like a full disk
   World world = options.route.empty()
                     ? make_world(options.world, options.seed)
                     : make_world(options.world, options.seed, read_route(options.route));
@@ -109,8 +109,8 @@ void simulate(const Options& options) {
   const std::int64_t whole_drive = (world.motion.duration_ns + period - 1) / period + 1;
   const std::int64_t count = options.count.value_or(whole_drive);
   Progress progress(static_cast<std::size_t>(count), isatty(STDERR_FILENO) == 0);
-  catch_interrupts();         // a scan half written would spoil the rest
-  std::future<void> written;  // of the scan before, while the next one is made
+  catch_interrupts();         // ends after a whole scan
+  std::future<void> written;  // the previous scan is written while the next is cast
   const auto finish_writing = [&] {
     if (!written.valid()) return;
     written.get();
@@ -136,7 +136,7 @@ void add_simulate(CLI::App& app) {
     worlds += "\n" + std::string(kind.name) + ": " + std::string(kind.description);
 
   CLI::App* command =
-      app.add_subcommand("simulate", "Make scans of a made world, with their truth");
+      app.add_subcommand("simulate", "Simulate the scans of a made world, with their truth");
   command->add_option("WORLD", options->world, "one of:" + worlds)->required();
   command
       ->add_option("-o,--output", options->output,
@@ -160,14 +160,14 @@ void add_simulate(CLI::App& app) {
       ->add_option("--noise", options->noise,
                    "sigma of the ranges, m [default: as the world or the sensor says]")
       ->check(CLI::Range(0.0, 1.0));
-  command->add_option("--dropouts", options->drop_outs, "weak echoes get lost")
+  command->add_option("--dropouts", options->drop_outs, "weak echoes are lost")
       ->capture_default_str()
       ->check(on_off);
   command
       ->add_option("--wear", options->wear,
-                   "beams are off as those of a used sensor [default: as the world says]")
+                   "beam errors of a used sensor [default: as the world says]")
       ->check(on_off);
-  command->add_option("--traffic", options->traffic, "things that move, in worlds that have some")
+  command->add_option("--traffic", options->traffic, "moving objects, in worlds that have them")
       ->capture_default_str()
       ->check(on_off);
   command->add_option("--truth", options->truth,

@@ -13,8 +13,10 @@ namespace lego_loam_sc {
 /// stage.
 void write_stage_clouds(const std::filesystem::path& folder, const ScanStages& stages);
 
-/// Writes index.html, the range image in the same colours under the lines of `summary`.
-void write_stage_page(const std::filesystem::path& folder, const ScanStages& stages,
-                      const SensorModel& sensor, const std::string& summary);
+/// Writes stages.json, what the clouds do not say: the input, what was printed of it (`summary`),
+/// the size of the range image and the elevation angle of each row.
+void write_stage_facts(const std::filesystem::path& folder, const ScanStages& stages,
+                       const SensorModel& sensor, const std::string& input,
+                       const std::string& summary);
 
 }  // namespace lego_loam_sc

@@ -7,9 +7,9 @@
 
 namespace lego_loam_sc {
 
-/// The fragments of the drive. Where tracking was lost, a new fragment begins at the predicted pose,
-/// which may be wrong by any distance: the relative poses of fragments are unconstrained until a loop
-/// joins them. Fragments that loops have joined are one map.
+/// The fragments of the drive. Where tracking was lost, a new fragment begins at the predicted
+/// pose, which may be wrong by any distance: the relative poses of fragments are unconstrained
+/// until a loop joins them. Fragments that loops have joined are one map.
 class MapFragments {
  public:
   /// Begins a fragment with this key frame; those before belong to earlier ones, for good.

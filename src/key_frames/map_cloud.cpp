@@ -41,15 +41,12 @@ void make_map(const KeyFrames& key_frames, std::span<const Pose> T_map_key, doub
   std::vector<MapPoint> points;
   for (std::size_t k = 0; k < key_frames.size(); ++k) {
     points.clear();
-    const KeyFrame key_frame = key_frames[k];
-    for (const auto* cloud :
-         {&key_frame.planars, &key_frame.edges, &key_frame.scattered, &key_frame.others})
-      for (const PackedPoint& point : *cloud) {
-        const Eigen::Vector3d p = T_map_key[k] * point.position().cast<double>();
-        if (voxels.take(p))
-          points.push_back(
-              {p.cast<float>(), static_cast<float>(point.intensity), static_cast<std::int32_t>(k)});
-      }
+    for (MapPoint point : points_of(key_frames[k], static_cast<std::int32_t>(k))) {
+      const Eigen::Vector3d p = T_map_key[k] * point.position.cast<double>();
+      if (!voxels.take(p)) continue;
+      point.position = p.cast<float>();
+      points.push_back(point);
+    }
     take(points);
   }
 }
@@ -63,9 +60,10 @@ std::vector<MapPoint> make_map(const KeyFrames& key_frames, std::span<const Pose
   return map;
 }
 
-std::vector<MapPoint> points_of(const KeyFrame& key_frame, int number) {
+std::vector<MapPoint> points_of(const KeyFrame& key_frame, std::int32_t number) {
   std::vector<MapPoint> points;
-  for (const auto* cloud : {&key_frame.planars, &key_frame.edges, &key_frame.others})
+  for (const auto* cloud :
+       {&key_frame.planars, &key_frame.edges, &key_frame.scattered, &key_frame.others})
     for (const PackedPoint& point : *cloud)
       points.push_back({point.position(), static_cast<float>(point.intensity), number});
   return points;

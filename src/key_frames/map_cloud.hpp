@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>
@@ -20,7 +21,7 @@ std::vector<MapPoint> make_map(const KeyFrames& key_frames, std::span<const Pose
 void make_map(const KeyFrames& key_frames, std::span<const Pose> T_map_key, double voxel_size,
               const std::function<void(std::span<const MapPoint>)>& take);
 
-/// The points of one key frame in its own frame, without filter.
-std::vector<MapPoint> points_of(const KeyFrame& key_frame, int number);
+/// All points of one key frame in its own LiDAR frame, as the map takes them.
+std::vector<MapPoint> points_of(const KeyFrame& key_frame, std::int32_t number);
 
 }  // namespace lego_loam_sc

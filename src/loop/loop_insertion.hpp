@@ -9,8 +9,8 @@ namespace lego_loam_sc {
 class LoopInsertion {
  public:
   /// Adds a loop and optimises, except that in a graph of many loops a consistent one waits for a
-  /// few more. `joins_maps`: the graph knew nothing of their relative pose. False when the optimised
-  /// graph contradicts the loop, which is then taken out again.
+  /// few more. `joins_maps`: the graph knew nothing of their relative pose. False when the
+  /// optimised graph contradicts the loop, which is then taken out again.
   bool insert(const PoseEdge& loop, bool joins_maps, PoseGraph& graph);
 
   /// See core/state_archive.hpp.

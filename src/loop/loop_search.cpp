@@ -44,8 +44,8 @@ std::vector<LoopCandidate> LoopSearch::candidates(const DriveView& drive, int el
     for (const LoopCandidate& candidate : by_distance(drive, eligible, settings_.radius_search))
       if (!drive.joins_maps(candidate.match)) found.push_back(candidate);
   }
-  if (detector_ && eligible > 0) std::ranges::copy(by_detector(drive, eligible),
-                                                   std::back_inserter(found));
+  if (detector_ && eligible > 0)
+    std::ranges::copy(by_detector(drive, eligible), std::back_inserter(found));
   return found;
 }
 

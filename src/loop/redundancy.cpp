@@ -6,8 +6,8 @@
 namespace lego_loam_sc {
 namespace {
 
-// Mahalanobis distance from the optimised graph: below this a loop within kSameVisit of the last one
-// is redundant.
+// Mahalanobis distance from the optimised graph: below this a loop within kSameVisit of the last
+// one is redundant.
 constexpr double kConsistent = 0.5;
 // The same near kWellTied loops. Of six degrees of freedom 2.5 is a usual value.
 constexpr double kUsual = 2.5;

@@ -14,7 +14,8 @@ constexpr double kWellTied = 5.0;
 double count_loops_near(int key_frame, const PoseGraph& graph);
 
 /// Whether a loop tells the graph nothing new. A visit must be tied to the one before, but driving
-/// the same roads all day would let the graph grow without end. `since_last_loop`: m along the path.
+/// the same roads all day would let the graph grow without end. `since_last_loop`: m along the
+/// path.
 bool is_redundant(const PoseEdge& loop, double since_last_loop, const PoseGraph& graph);
 
 }  // namespace lego_loam_sc

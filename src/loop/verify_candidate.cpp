@@ -45,8 +45,7 @@ double path_length_between(const LoopCandidate& candidate, const DriveView& driv
 }
 
 // A detector may say how the two scans are turned, the pose graph says where they should be.
-std::vector<Pose> guesses_for(const LoopCandidate& candidate, const Pose& expected,
-                              Effort effort) {
+std::vector<Pose> guesses_for(const LoopCandidate& candidate, const Pose& expected, Effort effort) {
   const bool quick = effort == Effort::quick;
   std::vector<Pose> guesses;
   if (candidate.detector != LoopCandidate::Detector::radius && !quick) {

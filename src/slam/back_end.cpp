@@ -25,8 +25,8 @@ BackEnd::Result BackEnd::add(const TrackedKeyFrame& key_frame) {
   scan_of_key_frame_.push_back(key_frame.scan);
 
   Result result;
-  ScanContext context = make_scan_context(key_frame.points, key_frame.sensor_height,
-                                          settings_.loop.scan_context);
+  ScanContext context =
+      make_scan_context(key_frame.points, key_frame.sensor_height, settings_.loop.scan_context);
   result.loops = loop_closer_.close(*key_frames_, std::move(context), fragments_, graph_);
   for (LoopReport& loop : result.loops) {
     loop.query_scan = scan_of_key_frame_[loop.candidate.query];
@@ -53,9 +53,8 @@ void BackEnd::add_to_graph(const TrackedKeyFrame& key_frame) {
 // A loop that was accepted is news, and so are the poses after one that was taken out again.
 std::optional<Correction> BackEnd::correction_after(const std::vector<LoopReport>& loops) const {
   const auto any = [&](Verdict verdict) {
-    return std::ranges::any_of(loops, [&](const LoopReport& loop) {
-      return loop.verification.verdict == verdict;
-    });
+    return std::ranges::any_of(
+        loops, [&](const LoopReport& loop) { return loop.verification.verdict == verdict; });
   };
   Correction correction;
   correction.accepted = any(Verdict::accepted);

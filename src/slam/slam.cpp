@@ -17,16 +17,11 @@ const SensorModel& checked(const SensorModel& sensor, const Settings& settings) 
 
 Slam::Slam(const SensorModel& sensor, const Settings& settings, int threads, LoopDetector detector,
            std::shared_ptr<BlobStore> points)
-    : Slam(checked(sensor, settings), settings, threads, std::move(detector),
-           std::make_shared<KeyFrames>(std::move(points))) {}
-
-Slam::Slam(const SensorModel& sensor, const Settings& settings, int threads, LoopDetector detector,
-           std::shared_ptr<KeyFrames> key_frames)
-    : range_noise_(sensor.range_noise),
+    : range_noise_(checked(sensor, settings).range_noise),
       back_end_settings_(settings),
       detector_(std::move(detector)),
       threads_(threads),
-      key_frames_(std::move(key_frames)),
+      key_frames_(std::make_shared<KeyFrames>(std::move(points))),
       tracker_(sensor, settings, key_frames_),
       back_end_(new_back_end()) {}
 
@@ -34,25 +29,21 @@ BackEnd Slam::new_back_end() const {
   return BackEnd(back_end_settings_, range_noise_, detector_, key_frames_);
 }
 
-ScanReport Slam::process(const Scan& scan) {
-  ScanReport report;
-  threads_.run([&] { report = take(scan); });
-  return report;
-}
-
 // Paper figure 4.
-ScanReport Slam::take(const Scan& scan) {
-  TrackedScan tracked = tracker_.track(scan);  // 2.3 (1) to (4)
-  if (tracked.first_again) replace_first(*tracked.first_again);
-  BackEnd::Result found;
-  if (tracked.key_frame) {
-    StageTimer timer(tracked.milliseconds);
-    timer.start(Stage::loops);
-    found = back_end_.add(*tracked.key_frame);  // 2.3 (5), (6)
-    if (found.correction) tracker_.correct(*found.correction);
-  }
-  fusion_.add(tracked);
-  return report_of(tracked, std::move(found.loops));
+ScanReport Slam::process(const Scan& scan) {
+  return threads_.run([&] {
+    TrackedScan tracked = tracker_.track(scan);  // 2.3 (1) to (4)
+    if (tracked.first_again) replace_first(*tracked.first_again);
+    BackEnd::Result found;
+    if (tracked.key_frame) {
+      StageTimer timer(tracked.milliseconds);
+      timer.start(Stage::loops);
+      found = back_end_.add(*tracked.key_frame);  // 2.3 (5), (6)
+      if (found.correction) tracker_.correct(*found.correction);
+    }
+    fusion_.add(tracked);
+    return report_of(tracked, std::move(found.loops));
+  });
 }
 
 // The second scan of a drive that began at speed has changed what became of the first.
@@ -70,7 +61,10 @@ bool Slam::write(StateWriter& writer) const {
 }
 
 void Slam::read(StateReader& reader) {
-  threads_.run([&] { reader(tracker_, back_end_, fusion_); });
+  threads_.run([&] {
+    reader(tracker_, back_end_, fusion_);
+    return true;
+  });
 }
 
 }  // namespace lego_loam_sc

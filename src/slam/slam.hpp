@@ -2,8 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <span>
-#include <vector>
 
 #include "core/scan.hpp"
 #include "core/sensor_model.hpp"
@@ -28,8 +26,7 @@ class Slam {
  public:
   /// `threads` bounds all threads that work is spread over; `detector` looks for loops beside those
   /// that the settings switch on; `points` takes the points of the key frames, memory when there is
-  /// none. Throws std::invalid_argument when the sensor or a setting is not
-  /// valid.
+  /// none. Throws std::invalid_argument when the sensor or a setting is not valid.
   Slam(const SensorModel& sensor, const Settings& settings, int threads = 1,
        LoopDetector detector = {}, std::shared_ptr<BlobStore> points = {});
 
@@ -70,10 +67,7 @@ class Slam {
   Eigen::Matrix3d R_level_lidar() const { return R_base_lidar(tracker_.calibration().sensor); }
 
  private:
-  Slam(const SensorModel& sensor, const Settings& settings, int threads, LoopDetector detector,
-       std::shared_ptr<KeyFrames> key_frames);
   BackEnd new_back_end() const;
-  ScanReport take(const Scan& scan);
   void replace_first(const TrackedScan& first);
 
   double range_noise_;

@@ -17,7 +17,7 @@ WorkerThreads::WorkerThreads(WorkerThreads&&) noexcept = default;
 WorkerThreads& WorkerThreads::operator=(WorkerThreads&&) noexcept = default;
 WorkerThreads::~WorkerThreads() = default;
 
-void WorkerThreads::run(const std::function<void()>& work) {
+void WorkerThreads::execute(const std::function<void()>& work) {
   arena_->execute(work);
 }
 

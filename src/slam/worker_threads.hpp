@@ -3,6 +3,8 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
+#include <utility>
 
 namespace lego_loam_sc {
 
@@ -15,10 +17,17 @@ class WorkerThreads {
   WorkerThreads& operator=(WorkerThreads&&) noexcept;
   ~WorkerThreads();
 
-  /// Does the work and returns when it is done.
-  void run(const std::function<void()>& work);
+  /// Does the work and returns what it gives.
+  template <class Work>
+  auto run(Work&& work) {
+    std::optional<decltype(work())> result;
+    execute([&] { result.emplace(work()); });
+    return std::move(*result);
+  }
 
  private:
+  void execute(const std::function<void()>& work);
+
   class Arena;
   std::unique_ptr<Arena> arena_;
 };

@@ -9,8 +9,8 @@
 namespace lego_loam_sc {
 namespace {
 
-// A key frame that has moved by kMoved, m, here or at the distance kArm, m, blurs the surfaces of the
-// map: rebuild.
+// A key frame that has moved by kMoved, m, here or at the distance kArm, m, blurs the surfaces of
+// the map: rebuild.
 constexpr double kMoved = 0.03;
 constexpr double kArm = 10.0;
 // Key frames that make a map to go on with, and those that follow with each scan.

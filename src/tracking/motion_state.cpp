@@ -18,8 +18,7 @@ Pose MotionState::predicted_motion(double seconds) const {
 Pose MotionState::T_map_predicted(double seconds) const {
   Pose predicted = previous.T_map_lidar * predicted_motion(seconds);
   const Eigen::Vector3d direction = -exp_se3(-twist * seconds).translation().stableNormalized();
-  predicted.translation() =
-      previous.T_map_lidar * Eigen::Vector3d(speed * seconds * direction);
+  predicted.translation() = previous.T_map_lidar * Eigen::Vector3d(speed * seconds * direction);
   return predicted;
 }
 

@@ -34,16 +34,16 @@ struct TrackedScan {
   std::int64_t stamp_ns = 0;
   double stamp_jump_s = 0.0;  ///< see ScanTime
   Status status = Status::ok;
-  ScanCounts counts;           // (1), (2)
-  Motion motion;               // (3)
-  bool mapped = false;         ///< the scan's turn to be matched with the map and added to it
-  MapMatch match;              // (4), as found; nothing when not mapped or while the map is empty
+  ScanCounts counts;    // (1), (2)
+  Motion motion;        // (3)
+  bool mapped = false;  ///< the scan's turn to be matched with the map and added to it
+  MapMatch match;       // (4), as found; nothing when not mapped or while the map is empty
   double elevation_bias_deg = 0.0;  ///< found so far, corrected from the next scan on
   double prediction_m = 0.0;        ///< from the predicted to the found position
   Testimony testimony;              ///< of points that did not serve to find the pose
 
-  /// Poses at the stamp: live, before any loop, and in the frame of the last key frame, which may be
-  /// this scan. That frame has the LiDAR's axes turned level.
+  /// Poses at the stamp: live, before any loop, and in the frame of the last key frame, which may
+  /// be this scan. That frame has the LiDAR's axes turned level.
   /// @{
   Pose T_odom_lidar = Pose::Identity();
   int last_key_frame = -1;

@@ -26,7 +26,7 @@ Tracker::Tracker(const SensorModel& sensor, const TrackerSettings& settings,
                  std::shared_ptr<const KeyFrames> key_frames)
     : settings_(settings),
       key_frames_(std::move(key_frames)),
-      calibration_{sensor, sensor, sensor.height},
+      calibration_(sensor),
       clock_(sensor.period),
       odometry_(settings.odometry, sensor.range_noise),
       mapper_(settings.mapping, sensor.range_noise, row_spacing(sensor)),
@@ -77,7 +77,7 @@ TrackedScan Tracker::track_once(const Scan& scan, int index) {
   TrackedScan tracked;
   tracked.index = index;
   tracked.stamp_ns = scan.stamp_ns;
-  tracked.T_odom_lidar = to_lidar_frame(motion_.previous.T_odom_lidar);
+  tracked.T_odom_lidar = calibration_.to_lidar_frame(motion_.previous.T_odom_lidar);
   const std::optional<ScanTime> time = clock_.read(scan.stamp_ns);
   if (!time) {
     tracked.status = Status::out_of_order;
@@ -113,21 +113,21 @@ TrackedScan Tracker::track_once(const Scan& scan, int index) {
   tracked.elevation_bias_deg = placement.elevation_bias_deg;
   tracked.prediction_m = moved.prediction_m;
   tracked.testimony = moved.testimony;
-  tracked.T_odom_lidar = to_lidar_frame(moved.current.T_odom_lidar * moved.T_reference_stamp);
+  tracked.T_odom_lidar =
+      calibration_.to_lidar_frame(moved.current.T_odom_lidar * moved.T_reference_stamp);
   tracked.last_key_frame = last_key_frame_.number;
-  tracked.T_key_lidar = to_lidar_frame(last_key_frame_.T_map_key.inverse() * T_map_lidar *
-                                       moved.T_reference_stamp);
+  tracked.T_key_lidar = calibration_.to_lidar_frame(last_key_frame_.T_map_key.inverse() *
+                                                    T_map_lidar * moved.T_reference_stamp);
   tracked.fragment = progress_.fragment;
   return tracked;
 }
 
 // The first scans also show how the sensor is mounted.
 FrontEnd Tracker::look_at(const Scan& scan, std::int64_t time_ns) {
-  FrontEnd front_end = run_front_end(scan, calibration_.sensor, calibration_.height, settings_,
-                                     mapper_.empty());
+  FrontEnd front_end =
+      run_front_end(scan, calibration_.sensor, calibration_.height, settings_, mapper_.empty());
   front_end.image.reference_ns += time_ns - scan.stamp_ns;
-  calibration_.sensor = mounted(std::move(calibration_.sensor), front_end.mounting);
-  calibration_.height = front_end.mounting.height;
+  calibration_.set_mounting(front_end.mounting);
   return front_end;
 }
 
@@ -173,7 +173,9 @@ Tracker::Placement Tracker::place(const Features& features, const Motion& motion
     placement.mapped = index % settings_.mapping.every == 0;
     if (placement.mapped) {
       placement.found = placement.match = match_with_map(features, motion, step.seconds);
-      placement.elevation_bias_deg = correct_elevations();
+      // Holds from the next scan on.
+      if (calibration_.correct_elevations(mapper_.elevation_bias(), mapper_.row_bias()))
+        placement.elevation_bias_deg = degrees(mapper_.elevation_bias());
       if (!placement.match.matched)
         placement.status = Status::odometry_only;
       else if (placement.match.localizability.degenerate())
@@ -209,19 +211,6 @@ MapMatch Tracker::match_with_map(const Features& features, const Motion& motion,
   return again.matched ? again : match;
 }
 
-// What the map has shown of the elevation angles holds from the next scan on. It is measured along
-// the vertical axis, about which only an upright sensor spins. Returns the common error, degrees.
-double Tracker::correct_elevations() {
-  SensorModel& sensor = calibration_.sensor;
-  if (sensor.tilted()) return 0.0;
-  const double bias_deg = degrees(mapper_.elevation_bias());
-  sensor.elevation_correction_deg = calibration_.nominal.elevation_correction_deg + bias_deg;
-  sensor.row_correction_deg.assign(sensor.elevation_deg.size(), 0.0);
-  for (std::size_t row = 0; row < mapper_.row_bias().size(); ++row)
-    sensor.row_correction_deg[row] = degrees(mapper_.row_bias()[row]);
-  return bias_deg;
-}
-
 // The map does not hold where the sensor is now: another one begins, from the prediction.
 void Tracker::begin_fragment() {
   mapper_.clear();
@@ -233,25 +222,25 @@ void Tracker::begin_fragment() {
 
 // Takes the scan's place for its motion, and its features for the next scan and the map. A scan
 // without a place changes nothing. Odometry takes the same motion, uncorrected by loops.
-Tracker::Advance Tracker::advance(const FrontEnd& front_end, const Motion& motion,
-                                  const Step& step, const Placement& placement) {
+Tracker::Advance Tracker::advance(const FrontEnd& front_end, const Motion& motion, const Step& step,
+                                  const Placement& placement) {
   const ScanState previous = motion_.previous;
   const MapMatch& match = placement.match;
   const Pose T_previous_current = previous.T_map_lidar.inverse() * match.T_map_lidar;
   Advance result;
   if (!step.first)
-    result.prediction_m = (T_previous_current.translation() -
-                           motion_.predicted_motion(step.seconds).translation())
-                              .norm();
+    result.prediction_m =
+        (T_previous_current.translation() - motion_.predicted_motion(step.seconds).translation())
+            .norm();
   result.current = {front_end.image.reference_ns, match.T_map_lidar,
                     normalized(previous.T_odom_lidar * T_previous_current), motion_.twist};
   result.T_reference_stamp = extrapolate(motion_.twist, step.stamp_age);
   if (!placement.placed()) return result;
 
   if (!step.first && !placement.new_fragment && step.jump_s == 0.0)
-    motion_.twist = log_se3(settings_.mapping.every == 1 ? T_previous_current
-                                                         : motion.T_previous_current) /
-                    step.seconds;
+    motion_.twist =
+        log_se3(settings_.mapping.every == 1 ? T_previous_current : motion.T_previous_current) /
+        step.seconds;
   motion_.add_displacement(T_previous_current.translation().norm(), step.seconds,
                            match.localizability.degenerate_translations == 0);
   if (!step.first) motion_.known = !placement.new_fragment;
@@ -313,13 +302,6 @@ void Tracker::correct(const Correction& correction) {
   if (!map_updater_.on_graph_update(correction, *key_frames_, mapper_)) return;
   motion_.previous.T_map_lidar = last_key_frame_.T_map_key = correction.T_map_key.back();
   witness_.correct(correction.T_map_key);
-}
-
-// All of the above has the LiDAR's axes turned level; poses of the LiDAR leave.
-Pose Tracker::to_lidar_frame(Pose T_frame_level) const {
-  const SensorModel& sensor = calibration_.sensor;
-  if (sensor.tilted()) T_frame_level.rotate(R_base_lidar(sensor));
-  return T_frame_level;
 }
 
 }  // namespace lego_loam_sc

@@ -10,6 +10,7 @@
 #include "key_frames/key_frames.hpp"
 #include "mapping/mapper.hpp"
 #include "odometry/odometry.hpp"
+#include "tracking/calibration.hpp"
 #include "tracking/front_end.hpp"
 #include "tracking/local_map_updater.hpp"
 #include "tracking/motion_state.hpp"
@@ -21,23 +22,9 @@
 
 namespace lego_loam_sc {
 
-/// The sensor as its model states it, and with what the scans have shown.
-struct Calibration {
-  SensorModel nominal;
-  SensorModel sensor;   ///< with the tilt and the elevation angles that were found on the way
-  double height = 0.0;  ///< m above the ground, 0 = not known yet
-
-  /// See core/state_archive.hpp.
-  template <class Archive>
-  void state(Archive& archive) {
-    archive(sensor.mount_roll_deg, sensor.mount_pitch_deg, sensor.elevation_correction_deg,
-            sensor.row_correction_deg, height);
-  }
-};
-
-/// Local SLAM, paper 2.3 (1) to (4): finds the pose of each scan in a local map and says which scans
-/// are key frames. Knows nothing of loops and of the pose graph; `correct` tells it what came of
-/// them.
+/// Local SLAM, paper 2.3 (1) to (4): finds the pose of each scan in a local map and says which
+/// scans are key frames. Knows nothing of loops and of the pose graph; `correct` tells it what came
+/// of them.
 class Tracker {
  public:
   /// `key_frames` is where the back end keeps those that the tracker gave it: from there they are
@@ -88,9 +75,9 @@ class Tracker {
   // The scan with its motion.
   struct Advance {
     ScanState current;
-    Features features;                           // de-skewed; none unless it is placed
+    Features features;  // de-skewed; none unless it is placed
     Pose T_reference_stamp = Pose::Identity();
-    double prediction_m = 0.0;                   // see TrackedScan
+    double prediction_m = 0.0;  // see TrackedScan
     Testimony testimony;
   };
   struct LastKeyFrame {
@@ -124,7 +111,6 @@ class Tracker {
   Motion measure_motion(const Features& features, const Step& step) const;
   Placement place(const Features& features, const Motion& motion, const Step& step, int index);
   MapMatch match_with_map(const Features& features, const Motion& motion, double seconds);
-  double correct_elevations();
   void begin_fragment();
   Advance advance(const FrontEnd& front_end, const Motion& motion, const Step& step,
                   const Placement& placement);
@@ -132,7 +118,6 @@ class Tracker {
   bool is_far_from_last_key_frame(const Pose& T_map_lidar) const;
   TrackedKeyFrame begin_key_frame(const FrontEnd& front_end, const Advance& advance,
                                   const Placement& placement, int index);
-  Pose to_lidar_frame(Pose T_frame_level) const;
 
   TrackerSettings settings_;
   std::shared_ptr<const KeyFrames> key_frames_;

@@ -25,7 +25,8 @@ void TrackingMonitor::note_gap(double jump_s, double seconds) {
 
 // For a few scans odometry alone may tell the place, as long as the map does not contradict it.
 bool TrackingMonitor::place_is_known(bool odometry_solved, const MapMatch& match) {
-  const bool odometry_tells = odometry_solved && !after_gap_ && (lost_scans_ == 0 || !match.matched);
+  const bool odometry_tells =
+      odometry_solved && !after_gap_ && (lost_scans_ == 0 || !match.matched);
   const bool confirmed = confirms(match);
   if (confirmed) after_gap_ = false;
   lost_scans_ = confirmed || odometry_tells ? 0 : lost_scans_ + 1;

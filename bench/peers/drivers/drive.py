@@ -13,7 +13,6 @@ import resource
 import sys
 
 import numpy as np
-
 import scans
 
 
@@ -37,7 +36,9 @@ def quaternion(rotation):
 
 
 def write_tum(path, stamps, poses):
-    rows = [[t, *pose[:3, 3], *quaternion(pose[:3, :3])] for t, pose in zip(stamps, poses)]
+    rows = [
+        [t, *pose[:3, 3], *quaternion(pose[:3, :3])] for t, pose in zip(stamps, poses, strict=False)
+    ]
     np.savetxt(path, rows, fmt="%.9f")
 
 

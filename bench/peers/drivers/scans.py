@@ -30,7 +30,7 @@ def from_folder(folder):
     files = sorted((folder / "velodyne").glob("*.bin"))
     times_file = folder / "times.txt"
     stamps = np.loadtxt(times_file) if times_file.is_file() else 0.1 * np.arange(len(files))
-    for stamp, file in zip(stamps, files):
+    for stamp, file in zip(stamps, files, strict=False):
         points = np.fromfile(file, dtype="<f4").reshape(-1, 4)[:, :3]
         yield Scan(float(stamp), points.astype(np.float64), NONE)
 

@@ -3,7 +3,6 @@
 
 from kiss_slam.config import KissSLAMConfig
 from kiss_slam.slam import KissSLAM
-
 from with_kiss_icp import REFERENCE, kitti_correction  # noqa: F401  it reads scans with KISS-ICP
 
 

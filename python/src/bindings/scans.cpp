@@ -6,8 +6,8 @@
 #include <nanobind/stl/unique_ptr.h>
 
 #include <cmath>
-#include <lego_loam_sc/io/sensor_presets.hpp>
 #include <lego_loam_sc/io/scan_source.hpp>
+#include <lego_loam_sc/io/sensor_presets.hpp>
 #include <limits>
 #include <stdexcept>
 #include <string>

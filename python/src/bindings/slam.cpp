@@ -121,18 +121,19 @@ PythonTrajectory key_frames(const Slam& slam) {
   return result;
 }
 
+std::vector<Eigen::Vector4f> to_rows(const std::vector<MapPoint>& points) {
+  std::vector<Eigen::Vector4f> rows;
+  for (const MapPoint& p : points)
+    rows.emplace_back(p.position.x(), p.position.y(), p.position.z(), p.intensity);
+  return rows;
+}
+
 std::vector<Eigen::Vector4f> key_frame_points(const Slam& slam, std::size_t number) {
   if (number >= slam.key_frames().size())
     throw nb::index_error(("there are " + std::to_string(slam.key_frames().size()) +
                            " key frames, no number " + std::to_string(number))
                               .c_str());
-  const KeyFrame key_frame = slam.key_frames()[number];
-  std::vector<Eigen::Vector4f> points;
-  for (const auto* part : {&key_frame.planars, &key_frame.edges, &key_frame.others})
-    for (const PackedPoint& point : *part)
-      points.emplace_back(point.position().x(), point.position().y(), point.position().z(),
-                          static_cast<float>(point.intensity));
-  return points;
+  return to_rows(points_of(slam.key_frames()[number], static_cast<std::int32_t>(number)));
 }
 
 }  // namespace
@@ -183,10 +184,8 @@ void bind_slam(nb::module_& module) {
           "map",
           [](const Slam& slam, double voxel_size) {
             if (!(voxel_size > 0.0)) throw std::invalid_argument("voxel_size must be above 0 m");
-            std::vector<Eigen::Vector4f> points;
-            for (const MapPoint& p : make_map(slam.key_frames(), slam.graph().poses(), voxel_size))
-              points.emplace_back(p.position.x(), p.position.y(), p.position.z(), p.intensity);
-            return to_numpy<float, 4>(std::move(points));
+            return to_numpy<float, 4>(
+                to_rows(make_map(slam.key_frames(), slam.graph().poses(), voxel_size)));
           },
           "voxel_size"_a = OutputSettings{}.map_voxel_size,
           "(n, 4): x y z in the map frame and intensity, a point for each voxel.")

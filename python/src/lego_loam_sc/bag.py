@@ -138,7 +138,7 @@ def _open_file(path: Path, report: Report, stack: ExitStack, packed: bool = True
             if packed and magic.startswith(ZSTD_MAGIC):
                 return _open_file(_unpack(path, report, stack), report, stack, packed=False)
             if magic == sqlite_bag.MAGIC:
-                return sqlite_bag.SqliteBag(path, report)
+                return sqlite_bag.SqliteBag(path, report, stack)
             for kind in (rosbag1, mcap):
                 if magic.startswith(kind.MAGIC):
                     data = memoryview(mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ))
@@ -157,7 +157,7 @@ def _unpack(path: Path, report: Report, stack: ExitStack) -> Path:
             for piece in unpack(packed):
                 out.write(piece)
         except InputError as error:
-            report(f"{error}; all that is whole is read")
+            report(f"{error}; all complete messages are read")
         if not out.tell():
             raise InputError(f"{path} is cut off or damaged at its beginning")
     return unpacked

@@ -15,7 +15,7 @@ from lego_loam_sc.messages import (
 )
 from lego_loam_sc.point_cloud import RawScan, describe, pick_fields, view_cloud
 
-_TELLING_TRANSFORMS = 50  # messages; they stand at the beginning or are repeated
+_MOST_TRANSFORM_MESSAGES = 50  # they stand at the beginning or are repeated
 
 _REASONS = {
     "CustomMsg": "Livox's own message, of sensors that do not scan in rings",
@@ -59,11 +59,11 @@ def static_transforms(bag: Bag) -> list[str]:
     for topic in bag.topics:
         if topic.type != TRANSFORMS or topic.name.rsplit("/", 1)[-1] != "tf_static":
             continue
-        for encoding, message in islice(bag.messages(topic), _TELLING_TRANSFORMS):
+        for encoding, message in islice(bag.messages(topic), _MOST_TRANSFORM_MESSAGES):
             try:
                 transforms = decode(TRANSFORMS, encoding, message.data)
             except InputError:
-                continue  # they are told for information only
+                continue  # they are printed for information only
             sentences.update(dict.fromkeys(describe_transforms(transforms)))
     return list(sentences)
 
@@ -89,7 +89,7 @@ def read_topic(
         if scan.stamp_ns == 0 != message.time_ns:
             scan.stamp_ns = message.time_ns
             if not stampless:
-                note(f"{topic.name} has no stamps: the times of recording are taken for them")
+                note(f"{topic.name} has no stamps: the times of recording are used instead")
             stampless = True
         yield scan
 

@@ -84,7 +84,7 @@ def _packets(path: Path, report: Report) -> Iterator[tuple[int, bytes]]:
             seconds, fraction, length, _ = struct.unpack_from(order + "IIII", data, at)
             at = frame_at + length
         if frame_at > len(data) or at > len(data):
-            report(f"{path}: it is cut off at byte {len(data)}; all that is whole is read")
+            report(f"{path}: it is cut off at byte {len(data)}; all complete packets are read")
             return
         # The payload ends the frame, whatever headers stand before it.
         payload = data[at - _PACKET : at] if length > _PACKET else b""

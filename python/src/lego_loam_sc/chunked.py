@@ -51,7 +51,7 @@ class CutOffError(Exception):
 
 
 class DamagedError(Exception):
-    """A record is none. Says what is wrong, without a full stop."""
+    """A record is invalid. The message is a clause without a full stop."""
 
 
 @dataclass

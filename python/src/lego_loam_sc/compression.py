@@ -16,7 +16,7 @@ else:
     from backports import zstd
 
 ZSTD_MAGIC = b"\x28\xb5\x2f\xfd"
-LARGEST = 1 << 28  # bytes; more in one piece is a lie or a bomb
+LARGEST = 1 << 28  # bytes; more in one piece is damage or an attack
 _MOST_PER_BYTE = 100  # of a packed file; recordings give less than ten
 _PIECE = 1 << 20  # bytes
 
@@ -45,7 +45,7 @@ def decompress(kind: str, data: bytes | memoryview, size: int = LARGEST) -> byte
 
 
 def unpack(packed: BinaryIO) -> Iterator[bytes]:
-    """The content of a zstd file piece by piece. Raises InputError behind what is whole."""
+    """The content of a zstd file piece by piece. Raises InputError after the last good one."""
     decompressor = zstd.ZstdDecompressor()
     left = LARGEST  # bytes that may come
     try:

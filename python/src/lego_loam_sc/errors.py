@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What goes wrong with an input, and how it is told."""
+"""Faults of an input, and how they are reported."""
 
 import sys
 from collections.abc import Callable
 
-Report = Callable[[str], None]  # takes a fault as one sentence; reading goes on behind it
+Report = Callable[[str], None]  # takes a fault as one sentence; reading goes on after it
 
 
 class InputError(Exception):
@@ -12,15 +12,15 @@ class InputError(Exception):
 
 
 class Faults:
-    """Tells the first faults of an input, as they come and each once, and counts all."""
+    """Prints the first faults of an input as they occur, each once, and counts all."""
 
-    TOLD = 5
+    PRINTED = 5
 
     def __init__(self) -> None:
         self._seen: set[str] = set()
 
     def __call__(self, sentence: str) -> None:
-        if sentence not in self._seen and len(self._seen) < self.TOLD:
+        if sentence not in self._seen and len(self._seen) < self.PRINTED:
             say(sentence)
         self._seen.add(sentence)
 
@@ -28,9 +28,9 @@ class Faults:
         return bool(self._seen)
 
     def finish(self) -> None:
-        """Tells how many were not told one by one."""
-        if len(self._seen) > self.TOLD:
-            say(f"and {len(self._seen) - self.TOLD} faults more of this input")
+        """Prints how many more there were."""
+        if len(self._seen) > self.PRINTED:
+            say(f"and {len(self._seen) - self.PRINTED} more faults of this input")
 
 
 def say(sentence: str) -> None:

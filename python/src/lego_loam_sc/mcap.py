@@ -53,11 +53,11 @@ def walk(data: memoryview, report: Report) -> Iterator[Item]:
         raise CutOffError
     except CutOffError:
         report(
-            f"it is cut off at byte {len(data)} or was never closed, it has no index; all that is "
-            "whole is read"
+            f"it is cut off at byte {len(data)} or was never closed, it has no index; all complete "
+            "messages are read"
         )
     except DamagedError as error:
-        report(f"{error}; all before that is read")
+        report(f"{error}; all messages before it are read")
 
 
 def _open_chunk(record: _Record, schemas: dict[int, str], report: Report) -> Iterator[Item]:
@@ -77,7 +77,7 @@ def _open_chunk(record: _Record, schemas: dict[int, str], report: Report) -> Ite
                 raise CutOffError
             yield from _read_item(inner, schemas)
     except CutOffError:
-        if not record.missing:  # else `walk` tells
+        if not record.missing:  # otherwise walk() reports it
             report(f"the chunk at byte {record.at} is shorter than it says")
     except (InputError, DamagedError) as error:
         report(f"the chunk at byte {record.at} is left out: {error}")

@@ -17,7 +17,7 @@ from lego_loam_sc.errors import Faults, InputError, Report, say
 from lego_loam_sc.point_cloud import RawScan
 from lego_loam_sc.scan_stream import Scan, ScanStreamWriter
 
-_TELLING_SCANS = 10  # the first ones may be too short to tell the unit of time by
+_UNIT_SCANS = 10  # the first ones may be too short to show the unit of time
 _LONGEST_FACTS = 65536  # bytes, of a scan stream
 
 Note = Callable[[str], None]
@@ -34,7 +34,7 @@ def main(arguments: list[str] | None = None) -> int:
             _stream(options, faults)
     except InputError as error:
         faults(str(error))
-    except BrokenPipeError:  # whoever reads the stream has enough of it
+    except BrokenPipeError:  # the reader of the stream has closed it
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     faults.finish()
     return 1 if faults else 0
@@ -75,7 +75,7 @@ def _list(path: Path, faults: Faults) -> None:
 
 def _stream(options: argparse.Namespace, faults: Faults) -> None:
     if sys.stdout.isatty():
-        raise InputError("a scan stream is nothing to look at; pipe it into: lego-loam-sc run -")
+        raise InputError("a scan stream is binary; pipe it into: lego-loam-sc run -")
     facts = _read_facts(options.input)
     note: Note = (lambda sentence: None) if options.quiet else say
     writer = ScanStreamWriter(sys.stdout.buffer, facts)
@@ -100,7 +100,7 @@ def _read_scans(
         return
     with Bag(path, faults) as bag:
         if not bag.topics and faults:
-            return  # the fault says why
+            return  # the fault is the reason
         topic = bag_scans.choose_topic(bag, options.topic)
         for sentence in bag_scans.static_transforms(bag):
             note(sentence)
@@ -144,7 +144,7 @@ def _with_times(
     raws: Iterator[RawScan], path: Path, unit: str | None, report: Report, note: Note
 ) -> Iterator[Scan]:
     """The scans with the times of their points. Raises InputError when these make no sense."""
-    head = list(islice(raws, _TELLING_SCANS))
+    head = list(islice(raws, _UNIT_SCANS))
     if unit != "none":
         unit = _decide_unit(head, path, unit, note)
     for raw in chain(head, raws):
@@ -160,7 +160,7 @@ def _with_times(
 
 
 def _decide_unit(head: list[RawScan], path: Path, unit: str | None, note: Note) -> str | None:
-    """The unit of the first scan that tells it; one driver wrote all of them."""
+    """The unit that the first scan with times shows; one driver wrote all scans."""
     undecided = None
     for raw in head:
         try:
@@ -181,7 +181,7 @@ def _decide_unit(head: list[RawScan], path: Path, unit: str | None, note: Note) 
 
 
 def _catch_interrupts() -> Callable[[], bool]:
-    """Ends the stream behind a whole scan; a second signal ends the program at once."""
+    """Ends the stream after a complete scan; a second signal ends the program at once."""
     caught = []
 
     def catch(number: int, _: object) -> None:

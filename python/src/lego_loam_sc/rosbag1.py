@@ -62,13 +62,15 @@ def walk(data: memoryview, report: Report) -> Iterator[Item]:
             elif op in (_CONNECTION, _MESSAGE):
                 yield _read_item(op, record)
         if index_at == 0:
-            report("the recording was never closed, it has no index; all that is whole is read")
+            report(
+                "the recording was never closed, it has no index; all complete messages are read"
+            )
         elif infos < chunks:
             raise CutOffError
     except CutOffError:
-        report(f"it is cut off at byte {len(data)}; all that is whole is read")
+        report(f"it is cut off at byte {len(data)}; all complete messages are read")
     except DamagedError as error:
-        report(f"{error}; all before that is read")
+        report(f"{error}; all messages before it are read")
 
 
 def _open_chunk(record: _Record, report: Report) -> Iterator[Item]:
@@ -82,7 +84,7 @@ def _open_chunk(record: _Record, report: Report) -> Iterator[Item]:
             if op in (_CONNECTION, _MESSAGE):
                 yield _read_item(op, inner)
     except CutOffError:
-        if not record.missing:  # else `walk` tells
+        if not record.missing:  # otherwise walk() reports it
             report(f"the chunk at byte {record.at} is shorter than it says")
     except (InputError, DamagedError) as error:
         report(f"the chunk at byte {record.at} is damaged: {error}; the others are read")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""lego-loam-sc-report: the folder of a run in, report.html out."""
+"""lego-loam-sc-report: what run or inspect left in, report.html out."""
 
 import argparse
 import os
@@ -13,19 +13,9 @@ from lego_loam_sc.errors import InputError
 def main(arguments: list[str] | None = None) -> int:
     """The program. Returns 0, or 1 when the run cannot be read or the page not be written."""
     options = _parse(arguments)
-    from lego_loam_sc.report.page import make_page  # takes a while, --help need not wait for it
-    from lego_loam_sc.report.results import read_results
-
     output = options.output or options.folder / "report.html"
     try:
-        results = read_results(options.folder)
-        try:
-            page = make_page(results, options.points)
-        except (KeyError, IndexError, ValueError) as error:
-            raise InputError(
-                f"the files in {options.folder} do not fit together or are of another version "
-                f"({type(error).__name__}: {error}); run again"
-            ) from error
+        page = _make(options)
         _write(output, page)
     except InputError as error:
         print(f"lego-loam-sc-report: {error}", file=sys.stderr)
@@ -35,12 +25,28 @@ def main(arguments: list[str] | None = None) -> int:
     return 0
 
 
+def _make(options: argparse.Namespace) -> str:
+    # Importing takes a while; --help need not wait for it.
+    from lego_loam_sc.report import page, results, stages
+
+    try:
+        if (options.folder / stages.FACTS).is_file():
+            return stages.make_stage_page(options.folder)
+        return page.make_page(results.read_results(options.folder), options.points)
+    except (KeyError, IndexError, ValueError) as error:
+        raise InputError(
+            f"the files in {options.folder} do not fit together or are of another version "
+            f"({type(error).__name__}: {error}); run again"
+        ) from error
+
+
 def _parse(arguments: list[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="lego-loam-sc report",
-        description="Writes one page, DIR/report.html, that shows a run and needs no network.",
+        description="Writes one page, DIR/report.html, that shows what run or inspect left and "
+        "needs no network.",
     )
-    parser.add_argument("folder", metavar="DIR", type=Path, help="what a run left")
+    parser.add_argument("folder", metavar="DIR", type=Path, help="what run or inspect left")
     parser.add_argument("-o", "--output", type=Path, help="another file for the page")
     parser.add_argument(
         "--points",

@@ -10,8 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from lego_loam_sc.errors import InputError
-
-_PLY_TYPES = {"float": "<f4", "int": "<i4"}
+from lego_loam_sc.report.ply import positions_of, read_ply
 
 
 @dataclass
@@ -90,7 +89,7 @@ def read_results(folder: Path) -> Results:
         trajectory,
         _read_cloud(folder / "map.ply") if whole else None,
         _read_cloud(folder / "loop_scans.ply") if whole else None,
-        _read_json(folder / "summary.json") if whole else None,
+        read_json(folder / "summary.json") if whole else None,
         _read_text(folder / "settings.yaml"),
         _read_text(folder / "sensor.yaml"),
     )
@@ -103,7 +102,7 @@ def _read_text(path: Path) -> str:
         raise InputError(f"{path} cannot be read: {error.strerror}") from error
 
 
-def _read_json(path: Path) -> dict:
+def read_json(path: Path) -> dict:
     try:
         return json.loads(_read_text(path))
     except ValueError as error:
@@ -146,17 +145,8 @@ def _read_tum(path: Path) -> np.ndarray:
 
 
 def _read_cloud(path: Path) -> Cloud:
+    points = read_ply(path)
     try:
-        content = path.read_bytes()
-    except OSError as error:
-        raise InputError(f"{path} cannot be read: {error.strerror}; run again") from error
-    header, _, data = content.partition(b"end_header\n")
-    words = [line.split() for line in header.decode(errors="replace").splitlines()]
-    try:
-        count = next(int(line[2]) for line in words if line[:2] == ["element", "vertex"])
-        kind = np.dtype([(line[2], _PLY_TYPES[line[1]]) for line in words if line[0] == "property"])
-        points = np.frombuffer(data, kind, count)
-        positions = np.stack([points["x"], points["y"], points["z"]], axis=1)
-        return Cloud(positions, points["intensity"], points["key_frame"])
-    except (StopIteration, ValueError, KeyError, IndexError) as error:
+        return Cloud(positions_of(points), points["intensity"], points["key_frame"])
+    except ValueError as error:
         raise InputError(f"{path} is not as this version writes it; run again") from error

@@ -31,7 +31,7 @@ def facts_table(results: Results) -> str:
 def _summary_rows(results: Results, duration: float) -> list[tuple[str, str]]:
     summary = results.summary
     if summary is None:
-        return [("state", "broken off before the end; the map and the loops' scans are missing")]
+        return [("state", "ended early; the map and the scans of loops are missing")]
     timing = summary["timing"]
     height = summary["sensor_height_m"]
     rows = [

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "app/stage_files.hpp"
+
 #include <array>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
-#include "app/stage_files.hpp"
+#include "io/atomic_file.hpp"
 #include "io/bytes.hpp"
 #include "io/cloud_writer.hpp"
 
@@ -11,9 +14,9 @@ namespace {
 
 using Colour = std::array<std::uint8_t, 3>;
 
-constexpr Colour kBehind = {170, 170, 170};
+constexpr Colour kGrey = {170, 170, 170};
 constexpr Colour kRed = {224, 32, 32};
-// Neighbours are told apart; none is the ground's red.
+// Told apart from each other and from the red of the ground.
 constexpr std::array<Colour, 8> kPalette = {{{31, 119, 180},
                                              {44, 160, 44},
                                              {148, 103, 189},
@@ -36,13 +39,13 @@ Colour of_row(const ScanStages&, std::size_t, int row) {
 Colour of_segment(const ScanStages& stages, std::size_t i, int) {
   if (stages.segmentation.label[i] == Label::ground) return kRed;
   const int cluster = stages.segmentation.cluster[i];
-  return cluster < 0 ? kBehind : kPalette[cluster % kPalette.size()];
+  return cluster < 0 ? kGrey : kPalette[cluster % kPalette.size()];
 }
 
-// Blue where it is flat, red where it is sharp, by powers of ten up to two each way.
+// Blue to red by the logarithm of roughness over threshold, from a hundredth to a hundred.
 Colour of_roughness(const ScanStages& stages, std::size_t i, int) {
   const float sharpness = stages.sharpness[i];
-  if (std::isnan(sharpness)) return kBehind;
+  if (std::isnan(sharpness)) return kGrey;
   const float t = std::clamp(std::log10(std::max(sharpness, 1e-6F)) / 2.0F, -1.0F, 1.0F);
   const auto fade = [&](float end) {
     return static_cast<std::uint8_t>(230.0F + std::abs(t) * (end - 230.0F));
@@ -58,13 +61,13 @@ Colour of_large_set(const ScanStages& stages, std::size_t i, int) {
     case FeatureSet::planar_flat: return {255, 140, 0};
     case FeatureSet::none: break;
   }
-  return kBehind;
+  return kGrey;
 }
 
 Colour of_small_set(const ScanStages& stages, std::size_t i, int) {
   if (stages.feature_set[i] == FeatureSet::edge_sharp) return {0, 160, 0};
   if (stages.feature_set[i] == FeatureSet::planar_flat) return {255, 20, 147};
-  return kBehind;
+  return kGrey;
 }
 
 std::string records(const ScanStages& stages,
@@ -98,6 +101,19 @@ void write_stage_clouds(const std::filesystem::path& folder, const ScanStages& s
                                      {"features_large.ply", &of_large_set},
                                      {"features_small.ply", &of_small_set}})
     write_ply(folder / name, kProperties, count, records(stages, colour));
+}
+
+void write_stage_facts(const std::filesystem::path& folder, const ScanStages& stages,
+                       const SensorModel& sensor, const std::string& input,
+                       const std::string& summary) {
+  const nlohmann::json facts = {{"input", input},
+                                {"summary", summary},
+                                {"rows", stages.image.rows},
+                                {"columns", stages.image.columns},
+                                {"elevation_deg", sensor.elevation_deg}};
+  // A file name need not be UTF-8.
+  write_file(folder / "stages.json",
+             facts.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace lego_loam_sc

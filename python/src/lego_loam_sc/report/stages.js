@@ -1,31 +1,5 @@
-<!DOCTYPE html>
-<html lang="en">
-<meta charset="utf-8">
-<title>Inside one scan</title>
-<style>
-  body { font: 15px/1.45 "Helvetica Neue", Arial, sans-serif; color: #222; margin: 24px; }
-  h1 { font-size: 20px; font-weight: 600; }
-  h2 { font-size: 15px; font-weight: 600; margin: 18px 0 2px; position: sticky; left: 0; }
-  h2 span, p { font-weight: 400; color: #555; }
-  pre { font-size: 13px; background: #f6f6f6; padding: 10px 12px; overflow-x: auto; }
-  #images { overflow-x: auto; padding-bottom: 8px; }
-  canvas { display: block; image-rendering: pixelated; background: #fff; outline: 1px solid #ccc; cursor: crosshair; }
-  #azimuth { position: relative; height: 20px; font-size: 12px; color: #555; }
-  #azimuth span { position: absolute; transform: translateX(-50%); white-space: nowrap; }
-  #azimuth span:first-child { transform: none; }
-  #azimuth span:last-child { transform: translateX(-100%); }
-  #pixel { position: sticky; top: 0; background: #fffd; padding: 6px 0; font-variant-numeric: tabular-nums; border-bottom: 1px solid #ddd; }
-  i { display: inline-block; width: 10px; height: 10px; margin: 0 3px 0 10px; }
-</style>
-<h1>Inside one scan</h1>
-<pre id="summary"></pre>
-<p>The range image, the highest beam on top, seen from the sensor: the middle is straight ahead, left is left. A pixel
-shows its nearest point; point at one to read it.</p>
-<div id="pixel">&nbsp;</div>
-<div id="images"></div>
-<script>
 "use strict";
-const stages = "STAGES";
+const stages = JSON.parse(document.getElementById("data").textContent);
 const { rows, columns } = stages;
 const height = Math.max(2, Math.min(12, Math.round(200 / rows))); // screen pixels of a row
 
@@ -93,7 +67,6 @@ function describe(x, y) {
     `roughness ${sharpness}, feature ${FEATURES[stages.feature[i]]}`;
 }
 
-document.getElementById("summary").textContent = stages.summary;
 const images = document.getElementById("images");
 for (const [title, explanation, colourOf] of LAYERS) {
   images.insertAdjacentHTML("beforeend", `<h2>${title} &nbsp;<span>${explanation}</span></h2>`);
@@ -112,5 +85,3 @@ for (const [title, explanation, colourOf] of LAYERS) {
 const azimuth = [["180°", 0], ["90° left", 0.25], ["0° ahead", 0.5], ["−90° right", 0.75], ["−180°", 1]];
 images.insertAdjacentHTML("beforeend", `<div id="azimuth" style="width:${columns}px">` +
   azimuth.map(([text, at]) => `<span style="left:${100 * at}%">${text}</span>`).join("") + "</div>");
-</script>
-</html>
