@@ -5,14 +5,15 @@
 
 namespace lego_loam_sc {
 
-/// The outcome of a scan. A bad scan does not end the run: in the last three cases the pose is the
-/// prediction and the scan has no other effect.
+/// The outcome of a scan. A bad scan does not end the run: with `too_few_points` and `lost` the pose
+/// is the prediction; these, a repeated scan and one out of order have no other effect.
 enum class Status {
   ok,
   degenerate,      ///< matched, but at least one direction comes from the prediction alone
   odometry_only,   ///< matched the previous scan, but not the map
   too_few_points,  ///< not enough points or features to match
   lost,            ///< matched neither the map nor the previous scan
+  repeated,        ///< the points of the scan before, byte for byte: the pose stays where it was
   out_of_order,    ///< its stamp is not later than the previous one; ignored
 };
 
@@ -28,6 +29,7 @@ constexpr std::string_view to_string(Status status) {
     case Status::odometry_only: return "odometry_only";
     case Status::too_few_points: return "too_few_points";
     case Status::lost: return "lost";
+    case Status::repeated: return "repeated";
     case Status::out_of_order: return "out_of_order";
   }
   return "unknown";

@@ -49,7 +49,7 @@ Vitals vitals_of(const ScanReport& r, const SensorModel& sensor, double delay_s)
     values[static_cast<std::size_t>(vital)] = value;
   };
   set(Vital::delay, delay_s);
-  if (r.status == Status::out_of_order) return values;
+  if (r.status == Status::out_of_order || r.status == Status::repeated) return values;
   set(Vital::points, share(static_cast<double>(r.points), 1.0 * sensor.rows() * sensor.columns));
   set(Vital::features, static_cast<double>(r.edges_large + r.planars_large));
   set(Vital::inliers, share(r.map_matches, r.map_points));

@@ -32,7 +32,7 @@ void RunAssessment::Stretch::add(bool applies, int scan) {
 }
 
 void RunAssessment::add(const ScanReport& report) {
-  if (report.status == Status::out_of_order) return;
+  if (report.status == Status::out_of_order || report.status == Status::repeated) return;
   ++scans_;
   unplaced_.add(!is_placed(report.status), report.index);
   degenerate_.add(report.status == Status::degenerate, report.index);

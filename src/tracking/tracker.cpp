@@ -2,6 +2,8 @@
 #include "tracking/tracker.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <utility>
 
 #include "core/time.hpp"
@@ -20,6 +22,15 @@ constexpr int kMaxReprocessings = 2;
 // Two scans with sweeps of different length may have reference times out of order, s.
 constexpr double kShortestStep = 1e-3;
 
+// FNV-1a over the coordinates.
+std::uint64_t hash_of(const std::vector<Eigen::Vector3f>& points) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const Eigen::Vector3f& p : points)
+    for (const float coordinate : {p.x(), p.y(), p.z()})
+      hash = (hash ^ std::bit_cast<std::uint32_t>(coordinate)) * 0x100000001b3;
+  return hash;
+}
+
 }  // namespace
 
 Tracker::Tracker(const SensorModel& sensor, const TrackerSettings& settings,
@@ -34,7 +45,10 @@ Tracker::Tracker(const SensorModel& sensor, const TrackerSettings& settings,
       witness_(row_spacing(sensor)) {}
 
 TrackedScan Tracker::track(const Scan& scan) {
-  const bool first = last_key_frame_.number < 0;
+  const bool first = progress_.last_key_frame.number < 0;
+  const std::uint64_t hash = hash_of(scan.points);
+  if (!first && !scan.points.empty() && hash == progress_.last_scan.points_hash) return repeat(scan);
+  progress_.last_scan.points_hash = hash;
   TrackedScan tracked = track_once(scan, progress_.scans++);
   if (tracked.status == Status::out_of_order) return tracked;
   if (first) {
@@ -61,7 +75,9 @@ TrackedScan Tracker::reprocess_first_scans(const FirstScan& first, const Scan& s
     if (!is_placed(tracked.status) || (motion - known).head<3>().norm() < sensor.range_noise) break;
     known = motion;
     const int index = tracked.index;
+    const std::uint64_t hash = progress_.last_scan.points_hash;
     *this = Tracker(calibration_.nominal, settings_, key_frames_);
+    progress_.last_scan.points_hash = hash;
     motion_.twist = twist;
     motion_.speed = twist.head<3>().norm();
     motion_.known = true;
@@ -70,6 +86,22 @@ TrackedScan Tracker::reprocess_first_scans(const FirstScan& first, const Scan& s
     tracked.first_again = std::move(first_again);
     progress_.scans = index + 1;
   }
+  return tracked;
+}
+
+// A driver repeats its last scan when the sensor stops or a playback pauses. How the sensor moves
+// meanwhile is unknown; that the scan would fit best where it was says nothing.
+TrackedScan Tracker::repeat(const Scan& scan) {
+  TrackedScan tracked;
+  tracked.index = progress_.scans++;
+  tracked.stamp_ns = scan.stamp_ns;
+  const std::optional<ScanTime> time = clock_.read(scan.stamp_ns);
+  tracked.status = time ? Status::repeated : Status::out_of_order;
+  if (time) tracked.stamp_jump_s = time->jump_s;
+  tracked.T_odom_lidar = progress_.last_scan.T_odom_lidar;
+  tracked.last_key_frame = progress_.last_key_frame.number;
+  tracked.T_key_lidar = progress_.last_scan.T_key_lidar;
+  tracked.fragment = progress_.fragment;
   return tracked;
 }
 
@@ -115,10 +147,12 @@ TrackedScan Tracker::track_once(const Scan& scan, int index) {
   tracked.testimony = moved.testimony;
   tracked.T_odom_lidar =
       calibration_.to_lidar_frame(moved.current.T_odom_lidar * moved.T_reference_stamp);
-  tracked.last_key_frame = last_key_frame_.number;
-  tracked.T_key_lidar = calibration_.to_lidar_frame(last_key_frame_.T_map_key.inverse() *
+  tracked.last_key_frame = progress_.last_key_frame.number;
+  tracked.T_key_lidar = calibration_.to_lidar_frame(progress_.last_key_frame.T_map_key.inverse() *
                                                     T_map_lidar * moved.T_reference_stamp);
   tracked.fragment = progress_.fragment;
+  progress_.last_scan.T_odom_lidar = tracked.T_odom_lidar;
+  progress_.last_scan.T_key_lidar = tracked.T_key_lidar;
   return tracked;
 }
 
@@ -134,7 +168,7 @@ FrontEnd Tracker::look_at(const Scan& scan, std::int64_t time_ns) {
 Tracker::Step Tracker::begin_step(const FrontEnd& front_end, const ScanTime& time) {
   const std::int64_t reference_ns = front_end.image.reference_ns;
   Step step;
-  step.first = last_key_frame_.number < 0;
+  step.first = progress_.last_key_frame.number < 0;
   step.jump_s = time.jump_s;
   step.seconds =
       step.first ? calibration_.sensor.period
@@ -272,7 +306,7 @@ Testimony Tracker::hear_witnesses(const RangeImage& image, const ScanState& stat
 }
 
 bool Tracker::is_far_from_last_key_frame(const Pose& T_map_lidar) const {
-  const Pose since = last_key_frame_.T_map_key.inverse() * T_map_lidar;
+  const Pose since = progress_.last_key_frame.T_map_key.inverse() * T_map_lidar;
   return since.translation().norm() >= settings_.key_frames.distance ||
          rotation_angle(since) >= radians(settings_.key_frames.rotation_deg);
 }
@@ -280,7 +314,7 @@ bool Tracker::is_far_from_last_key_frame(const Pose& T_map_lidar) const {
 TrackedKeyFrame Tracker::begin_key_frame(const FrontEnd& front_end, const Advance& moved,
                                          const Placement& placement, int index) {
   TrackedKeyFrame result;
-  result.number = last_key_frame_.number + 1;
+  result.number = progress_.last_key_frame.number + 1;
   result.scan = index;
   result.points = deskewed_points(front_end.image, moved.current.twist);
   result.key_frame =
@@ -288,11 +322,11 @@ TrackedKeyFrame Tracker::begin_key_frame(const FrontEnd& front_end, const Advanc
                      motion_.travelled, settings_.key_frames.point_spacing);
   result.sensor_height = calibration_.height;
   result.T_map_key = placement.match.T_map_lidar;
-  result.T_last_key = last_key_frame_.T_map_key.inverse() * result.T_map_key;
+  result.T_last_key = progress_.last_key_frame.T_map_key.inverse() * result.T_map_key;
   result.covariance = placement.match.covariance;
   result.localizability = placement.match.localizability;
   result.starts_fragment = placement.new_fragment;
-  last_key_frame_ = {result.number, result.T_map_key};
+  progress_.last_key_frame = {result.number, result.T_map_key};
   map_updater_.add(result.number, result.T_map_key);
   witness_.add(result.number, result.points, result.T_map_key);
   return result;
@@ -300,7 +334,7 @@ TrackedKeyFrame Tracker::begin_key_frame(const FrontEnd& front_end, const Advanc
 
 void Tracker::correct(const Correction& correction) {
   if (!map_updater_.on_graph_update(correction, *key_frames_, mapper_)) return;
-  motion_.previous.T_map_lidar = last_key_frame_.T_map_key = correction.T_map_key.back();
+  motion_.previous.T_map_lidar = progress_.last_key_frame.T_map_key = correction.T_map_key.back();
   witness_.correct(correction.T_map_key);
 }
 

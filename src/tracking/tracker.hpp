@@ -49,7 +49,7 @@ class Tracker {
   template <class Archive>
   void state(Archive& archive) {
     archive(calibration_, clock_, odometry_, mapper_, map_updater_, monitor_, witness_, motion_,
-            last_key_frame_, progress_);
+            progress_);
   }
 
  private:
@@ -89,13 +89,26 @@ class Tracker {
       archive(number, T_map_key);
     }
   };
-  struct Progress {
-    int scans = 0;
-    int fragment = 0;
+  // What a repeated scan is told by, and the poses that it repeats; see TrackedScan.
+  struct LastScan {
+    std::uint64_t points_hash = 0;
+    Pose T_odom_lidar = Pose::Identity();
+    Pose T_key_lidar = Pose::Identity();
 
     template <class Archive>
     void state(Archive& archive) {
-      archive(scans, fragment);
+      archive(points_hash, T_odom_lidar, T_key_lidar);
+    }
+  };
+  struct Progress {
+    int scans = 0;
+    int fragment = 0;
+    LastKeyFrame last_key_frame;
+    LastScan last_scan;
+
+    template <class Archive>
+    void state(Archive& archive) {
+      archive(scans, fragment, last_key_frame, last_scan);
     }
   };
   struct FirstScan {
@@ -103,6 +116,7 @@ class Tracker {
     Scan scan;
   };
 
+  TrackedScan repeat(const Scan& scan);
   TrackedScan track_once(const Scan& scan, int index);
   TrackedScan reprocess_first_scans(const FirstScan& first, const Scan& second,
                                     TrackedScan tracked);
@@ -129,7 +143,6 @@ class Tracker {
   TrackingMonitor monitor_;
   Witness witness_;
   MotionState motion_;
-  LastKeyFrame last_key_frame_;
   Progress progress_;
   std::optional<FirstScan> first_scan_;  // until its motion is known
 };
