@@ -198,7 +198,7 @@ TEST(Features, ABorderThatIsHiddenByANearerObjectIsNoEdge) {
   }
 }
 
-TEST(Features, WhereEdgesAreScarceAllThatStandsOnTheGroundIsScattered) {
+TEST(Features, WhatStandsOnTheGroundAndIsRoughIsScattered) {
   Scene field;
   field.plane({0, 0, 0}, Eigen::Vector3d::UnitZ());
   for (int k = 0; k < 8; ++k)
@@ -215,7 +215,13 @@ TEST(Features, WhereEdgesAreScarceAllThatStandsOnTheGroundIsScattered) {
     EXPECT_NEAR(p.position.head<2>().norm(), 12.0, 0.3);
     EXPECT_NE(p.label, Label::ground);
   }
-  EXPECT_TRUE(in(street()).scattered.empty());
+
+  Settings settings;
+  settings.features.scattered = 20;
+  const Scan scan = take_scan(field, sensor, pose_of(0, 0, kMadeHeight), {.noise = 0.01});
+  EXPECT_EQ(through_stages(scan, sensor, kMadeHeight, settings).features.scattered.size(), 20u);
+  settings.features.scattered = 0;
+  EXPECT_TRUE(through_stages(scan, sensor, kMadeHeight, settings).features.scattered.empty());
 }
 
 TEST(Features, NothingHasNoFeatures) {

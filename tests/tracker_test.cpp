@@ -119,5 +119,27 @@ TEST(Tracker, ACorrectionMovesTheMapButNotTheLivePose) {
   EXPECT_TRUE(is_corrected);
 }
 
+// A driver repeats its last scan.
+TEST(Tracker, ARepeatedScanIsNoMotion) {
+  const std::vector<Scan> scans = drive(12, kSpeed);
+  Tracker tracker = lone_tracker();
+  TrackedScan last;
+  for (int k = 0; k < 10; ++k) last = tracker.track(scans[static_cast<std::size_t>(k)]);
+  for (int k = 1; k <= 3; ++k) {
+    Scan again = scans[9];
+    again.stamp_ns += k * 10'000'000;
+    const TrackedScan repeated = tracker.track(again);
+    EXPECT_EQ(repeated.status, Status::repeated);
+    EXPECT_EQ(repeated.index, 9 + k);
+    EXPECT_TRUE(repeated.T_odom_lidar.isApprox(last.T_odom_lidar, 0.0));
+    EXPECT_TRUE(repeated.T_key_lidar.isApprox(last.T_key_lidar, 0.0));
+    EXPECT_FALSE(repeated.key_frame.has_value());
+  }
+  const TrackedScan next = tracker.track(scans[10]);
+  EXPECT_EQ(next.status, Status::ok);
+  EXPECT_NEAR((last.T_odom_lidar.inverse() * next.T_odom_lidar).translation().norm(),
+              0.1 * kSpeed, 0.03);
+}
+
 }  // namespace
 }  // namespace lego_loam_sc

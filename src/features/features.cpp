@@ -230,8 +230,10 @@ Features extract_features(const RangeImage& image, const Segmentation& segmentat
                           const SensorModel& sensor, const FeatureSettings& settings) {
   std::vector<std::uint8_t> smooth;
   Features features = extract_edges_and_planars(image, segmentation, sensor, settings, smooth);
-  if (settings.scattered)
-    features.scattered = scattered_points(image, segmentation, smooth, settings.planar_spacing);
+  if (settings.scattered > 0)
+    features.scattered =
+        subsample(scattered_points(image, segmentation, smooth, settings.planar_spacing),
+                  settings.scattered);
   return features;
 }
 

@@ -15,7 +15,7 @@ struct FeatureSettings {
   int planars_large = 0;
   bool flat_from_ground_only = true;
   int min_ground_flats = 100;
-  bool scattered = true;
+  int scattered = 5000;
   double planar_spacing = 0.2;
   int suppressed_neighbours = 5;
   int max_column_gap = 2;
@@ -38,8 +38,9 @@ struct FeatureSettings {
     visit("flat_from_ground_only", s.flat_from_ground_only, "F_p is taken from the ground alone");
     visit("min_ground_flats", s.min_ground_flats, 0, 100000,
           "with fewer points of F_p on the ground, it is taken from everywhere after all");
-    visit("scattered", s.scattered,
-          "all rough points above the ground are matched with the map too, not edges alone");
+    visit("scattered", s.scattered, 0, 1000000,
+          "rough points above the ground that are kept beside the edges; of more, evenly spread ones; "
+          "0 = none");
     visit("planar_spacing", s.planar_spacing, 0.0, 10.0,
           "m; distance along a row between points of the large planar set, and between scattered points");
     visit("suppressed_neighbours", s.suppressed_neighbours, 0, 20,

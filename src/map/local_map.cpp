@@ -11,14 +11,18 @@ bool takes(std::span<const double> max_range, std::size_t level, double range) {
   return level >= max_range.size() || range <= max_range[level];
 }
 
+// With `thin` a level takes one of two points of the finer one: its voxels are eight times larger.
 void insert_into(std::vector<SurfaceMap>& maps, std::span<const double> max_range,
-                 const std::vector<FeaturePoint>& points, const Pose& T_map_points) {
+                 const std::vector<FeaturePoint>& points, const Pose& T_map_points,
+                 bool thin = false) {
   std::vector<Eigen::Vector3d> moved;
   std::vector<double> ranges;
   for (std::size_t level = 0; level < maps.size(); ++level) {
     moved.clear();
     ranges.clear();
-    for (const FeaturePoint& p : points) {
+    const std::size_t step = thin ? std::size_t{1} << level : 1;
+    for (std::size_t i = 0; i < points.size(); i += step) {
+      const FeaturePoint& p = points[i];
       const double range = p.position.head<2>().norm();
       if (!takes(max_range, level, range)) continue;
       moved.push_back(T_map_points * p.position.cast<double>());
@@ -121,7 +125,7 @@ LocalMap::LocalMap(double voxel_size, int levels, double planarity, double row_s
 void LocalMap::insert(const Features& features, const Pose& T_map_points) {
   insert_into(planes_, max_range_, features.planars_large, T_map_points);
   insert_into(lines_, max_range_, features.edges_large, T_map_points);
-  insert_into(scattered_, {}, features.scattered, T_map_points);
+  insert_into(scattered_, {}, features.scattered, T_map_points, true);
 }
 
 MapCorrespondences LocalMap::match(const Features& features, const Pose& T_map_points,

@@ -27,7 +27,7 @@ constexpr double kMaxTurnDeg = 20.0;
 // Poses of the search that are refined.
 constexpr int kSearchStarts = 5;
 // A direction with a smaller share of the constraints may be degenerate.
-constexpr double kWeakShare = 0.05;
+constexpr double kWeakShare = 0.025;
 // Voxels beyond the radius are removed after each movement by this share of it.
 constexpr double kEvictionShare = 0.2;
 

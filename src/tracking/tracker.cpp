@@ -2,8 +2,8 @@
 #include "tracking/tracker.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
+#include <cstring>
 #include <utility>
 
 #include "core/time.hpp"
@@ -22,12 +22,16 @@ constexpr int kMaxReprocessings = 2;
 // Two scans with sweeps of different length may have reference times out of order, s.
 constexpr double kShortestStep = 1e-3;
 
-// FNV-1a over the coordinates.
+// FNV-1a over the bytes, eight at a time.
 std::uint64_t hash_of(const std::vector<Eigen::Vector3f>& points) {
   std::uint64_t hash = 0xcbf29ce484222325;
-  for (const Eigen::Vector3f& p : points)
-    for (const float coordinate : {p.x(), p.y(), p.z()})
-      hash = (hash ^ std::bit_cast<std::uint32_t>(coordinate)) * 0x100000001b3;
+  const auto* bytes = reinterpret_cast<const unsigned char*>(points.data());
+  const std::size_t size = points.size() * sizeof(Eigen::Vector3f);
+  for (std::size_t at = 0; at < size; at += sizeof(std::uint64_t)) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes + at, std::min(sizeof word, size - at));
+    hash = (hash ^ word) * 0x100000001b3;
+  }
   return hash;
 }
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What happened over time: height, speed, degeneracy and the time that each stage took."""
 
-import re
-
 import numpy as np
 import plotly.graph_objects as go
 from plotly.subplots import make_subplots
@@ -132,12 +130,7 @@ def _add_degeneracy(figure: go.Figure, results: Results) -> None:
             row=3,
             col=1,
         )
-    limit = re.search(r"^mapping:.*?^  min_strength: ([\d.]+)", results.settings, re.M | re.S)
-    if limit and float(limit[1]) > 0:
-        figure.add_hline(
-            y=float(limit[1]), line={"color": "#d9480f", "dash": "dash", "width": 1}, row=3
-        )
-    figure.update_yaxes(title_text="whole constraints", type="log", dtick="D2", row=3)
+    figure.update_yaxes(title_text="constraints", type="log", dtick="D2", row=3)
 
 
 def _add_stages(figure: go.Figure, results: Results) -> None:
