@@ -15,7 +15,7 @@ struct FeatureSettings {
   int planars_large = 0;
   bool flat_from_ground_only = true;
   int min_ground_flats = 100;
-  int scattered = 5000;
+  int scattered = 100000;
   double planar_spacing = 0.2;
   int suppressed_neighbours = 5;
   int max_column_gap = 2;
