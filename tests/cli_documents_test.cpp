@@ -167,7 +167,8 @@ std::string text_of_files(const fs::path& folder, const std::string& ending) {
 }
 
 TEST(Documents, NameTestsThatExist) {
-  const std::string tests = text_of_files(kSource / "tests", "_test.cpp");
+  const std::string tests = text_of_files(kSource / "tests", "_test.cpp") +
+                            text_of_files(kSource / "sim/tests", "_test.cpp");
   const std::string python = text_of_files(kSource / "python/tests", ".py");
   const std::string document = read_text(kSource / "docs/reliability.md");
   const std::regex name("`(?:([A-Z]\\w+)\\.([A-Z]\\w+)|(test_\\w+))`");

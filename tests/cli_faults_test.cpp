@@ -69,7 +69,7 @@ TEST(Faults, NeverOverwriteResultsOrScans) {
   shell.must(kSimulate);
   shell.files().write("taken/notes.txt", "mine");
   expect_one_sentence(shell("$P run scans --quiet -o taken"), {"taken", "never overwrites"});
-  expect_one_sentence(shell("$P simulate parking --count 1 -o taken"), {"taken", "not an empty"});
+  expect_one_sentence(shell("$P simulate parking --count 1 -o taken"), {"taken", "is not empty"});
   EXPECT_EQ(read_text(shell.folder() / "taken/notes.txt"), "mine");
   EXPECT_EQ(std::distance(fs::directory_iterator(shell.folder() / "taken"), {}), 1);
 }

@@ -24,7 +24,7 @@ TEST(CliSimulate, AReaderThatGoesAwayEndsItWithOneSentence) {
       shell("{ $P simulate parking --sensor rs16 -o - ; echo $? > code; } | head -c 100 > head");
   EXPECT_EQ(read_text(shell.folder() / "code"), "1\n");
   EXPECT_EQ(split(outcome.err, '\n').size(), 1u) << outcome.err;
-  EXPECT_NE(outcome.err.find("its reader has ended"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("its reader has closed it"), std::string::npos) << outcome.err;
 }
 
 TEST(CliSimulate, AUsedSensorSeesOtherPointsThanANewOne) {

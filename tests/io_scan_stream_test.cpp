@@ -117,7 +117,7 @@ TEST(ScanStream, RefusesAnotherVersionAndOtherFiles) {
   EXPECT_NE(version.find("version 2"), version.npos);
   std::istringstream other("# .PCD v0.7 - Point Cloud Data file format");
   const std::string magic = error_of([&] { ScanStreamReader(other, "stream"); });
-  EXPECT_NE(magic.find("no scan stream"), magic.npos);
+  EXPECT_NE(magic.find("not a scan stream"), magic.npos);
 }
 
 TEST(ScanStream, RefusesToWriteArraysOfDifferentLengths) {
