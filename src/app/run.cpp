@@ -8,6 +8,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "app/checkpoint.hpp"
 #include "app/commands.hpp"
@@ -21,6 +23,7 @@
 #include "app/scan_input.hpp"
 #include "core/error.hpp"
 #include "io/blob_file.hpp"
+#include "io/point_times.hpp"
 #include "io/sensor_yaml.hpp"
 #include "io/settings_yaml.hpp"
 #include "io/trajectory.hpp"
@@ -113,10 +116,15 @@ void run(const Options& options, int& exit_code) {
   const SensorModel sensor = choose_sensor(common.sensor, scans.back(), dataset);
   if (const auto mismatch = sensor_mismatch(scans.back(), sensor)) throw InputError(*mismatch);
   facts.sensor = sensor.name;
+  std::vector<std::string> notes = input.source().notes();
+  if (sensor.motion_compensated && are_times(scans.back().offset_ns))
+    notes.emplace_back(
+        "the scans are declared motion compensated: the times of their points are not used");
   if (!options.quiet) {
     spdlog::info("sensor {}, method {}", sensor.name, common.method);
-    for (const std::string& note : input.source().notes()) spdlog::info("{}", note);
+    for (const std::string& note : notes) spdlog::info("{}", note);
   }
+  const std::size_t noted = input.source().notes().size();
   if (options.threads > 1) input.read_ahead();
 
   const std::filesystem::path folder = folder_of(options);
@@ -159,6 +167,12 @@ void run(const Options& options, int& exit_code) {
   }
   input.finish_reader();
   facts.faults = input.faults();
+  const std::vector<std::string>& all_notes = input.final_notes();
+  for (std::size_t k = noted; k < all_notes.size(); ++k) {
+    if (!options.quiet) spdlog::info("{}", all_notes[k]);
+    notes.push_back(all_notes[k]);
+  }
+  facts.notes = std::move(notes);
   facts.interrupted = interrupted();
   facts.wall_seconds = wall_seconds_before + seconds_since(begin);
   const std::string summary = writer.finish(slam, dataset, facts);

@@ -39,6 +39,12 @@ class RunInput {
   /// Ends the reader of a recording once its scans are. False when it had a fault.
   bool finish_reader();
 
+  /// What was assumed of the scans, see ScanSource. Ends the reading ahead: no scan comes after it.
+  const std::vector<std::string>& final_notes() {
+    prefetcher_.reset();
+    return input_.source().notes();
+  }
+
   /// How many scans were taken, bad ones among them.
   std::size_t taken() const { return taken_; }
   /// How many are to be expected in all, when that is known.

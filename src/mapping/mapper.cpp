@@ -185,6 +185,8 @@ MapMatch Mapper::refine(const Features& features, const ScanGuess& guess) {
   prior.add_to(solution, pose);
   velocity_prior.add_to(solution, Sweep{pose}, twist);
   // Where the pose is a guess the residuals are as well.
+  if (!match.localizability.degenerate())
+    sweep_check_.add(correspondences, pose, scale, velocity_prior.mean(pose), twist);
   if (settings_.elevation_bias && !match.localizability.degenerate()) {
     elevation_bias_.add(correspondences, pose, scale, solution);
     row_bias_.add(correspondences, pose, scale);

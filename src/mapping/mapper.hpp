@@ -8,6 +8,7 @@
 #include "map/local_map.hpp"
 #include "mapping/elevation_bias.hpp"
 #include "mapping/row_bias.hpp"
+#include "mapping/sweep_check.hpp"
 #include "mapping/settings.hpp"
 #include "registration/localizability.hpp"
 
@@ -54,6 +55,9 @@ class Mapper {
   /// rad; the same of each row beside what they have in common, see RowBias; empty when unknown.
   const std::vector<double>& row_bias() const { return row_bias_.values(); }
 
+  /// Whether the times of the points fit the motion.
+  const SweepCheck& sweep_check() const { return sweep_check_; }
+
   /// Adds features that are already de-skewed.
   void insert(const Features& deskewed, const Pose& T_map_lidar);
 
@@ -68,7 +72,8 @@ class Mapper {
   /// See core/state_archive.hpp.
   template <class Archive>
   void state(Archive& archive) {
-    archive(map_, elevation_bias_, row_bias_, spacing_, last_insertion_, last_eviction_);
+    archive(map_, elevation_bias_, row_bias_, sweep_check_, spacing_, last_insertion_,
+            last_eviction_);
   }
 
  private:
@@ -79,6 +84,7 @@ class Mapper {
   LocalMap map_;
   ElevationBias elevation_bias_;
   RowBias row_bias_;
+  SweepCheck sweep_check_;
   double spacing_;  // m, of the points that are matched
   std::optional<Eigen::Vector3d> last_insertion_;
   Eigen::Vector3d last_eviction_ = Eigen::Vector3d::Zero();

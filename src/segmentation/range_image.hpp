@@ -48,4 +48,7 @@ struct RangeImage {
 /// nearest one stands for it.
 RangeImage project(const Scan& scan, const SensorModel& sensor);
 
+/// Makes `pixels` anew from the points.
+void fill_pixels(RangeImage& image);
+
 }  // namespace lego_loam_sc
