@@ -115,6 +115,31 @@ TEST(PointTimes, PointsWithoutReturnDoNotCount) {
   EXPECT_EQ(interpret({kNan, 0.02, 0.1}).offset_ns, (Offsets{0, 20'000'000, 100'000'000}));
 }
 
+TEST(PointTimes, StrayTimesCostTheirPointsOnly) {
+  std::vector<double> times(1000);
+  for (std::size_t i = 0; i < times.size(); ++i) times[i] = 1.6e9 + 1e-4 * static_cast<double>(i);
+  times[5] = 0.0;
+  times[700] = 1.7e9;
+  const PointTimes stray = interpret(times);
+  EXPECT_EQ(stray.stray, (std::vector<std::uint32_t>{5, 700}));
+  EXPECT_EQ(stray.unit, TimeUnit::seconds);
+  EXPECT_NEAR(stray.offset_ns[999], 99'900'000, 256);
+  EXPECT_EQ(stray.offset_ns[700], 0);
+}
+
+TEST(PointTimes, AScanWithManyStrayTimesIsRefused) {
+  std::vector<double> times(1000);
+  for (std::size_t i = 0; i < times.size(); ++i)
+    times[i] = i % 10 == 0 ? 0.0 : 1.6e9 + 1e-4 * static_cast<double>(i);
+  EXPECT_THROW(interpret(times), InputError);
+}
+
+TEST(PointTimes, AreOffsetsThatDiffer) {
+  EXPECT_FALSE(are_times(Offsets{}));
+  EXPECT_FALSE(are_times(Offsets{7, 7, 7}));
+  EXPECT_TRUE(are_times(Offsets{7, 7, 8}));
+}
+
 TEST(PointTimes, AskForTheUnitWhenNoneFits) {
   const std::string message = error_of([] { interpret({0, 5}); });
   EXPECT_NE(message.find("a.pcd: the point times run from 0 to 5"), message.npos);

@@ -97,6 +97,18 @@ def test_points_without_a_return_do_not_count():
     assert result.offset_ns.tolist() == [0, 0, 100_000_000]
 
 
+def test_stray_times_cost_their_points_only():
+    times = 1.6e9 + 1e-4 * np.arange(1000)
+    times[5], times[700] = 0, 1.7e9
+    result = interpret(times, np.ones(1000, bool), STAMP, None)
+    assert np.flatnonzero(result.stray).tolist() == [5, 700]
+    assert result.unit == "s"
+    assert abs(int(result.offset_ns[999]) - 99_900_000) < 256
+    times[::10] = 0
+    with pytest.raises(InputError):
+        interpret(times, np.ones(1000, bool), STAMP, None)
+
+
 def test_times_that_fit_no_unit_are_refused_with_the_numbers_and_the_setting():
     with pytest.raises(InputError, match="run from 0.0 to 5.0.*set point_times to s, ms, us, ns"):
         offsets([0, 5])

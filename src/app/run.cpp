@@ -10,6 +10,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "app/checkpoint.hpp"
 #include "app/commands.hpp"
@@ -23,6 +25,7 @@
 #include "app/scan_input.hpp"
 #include "core/error.hpp"
 #include "io/blob_file.hpp"
+#include "io/point_times.hpp"
 #include "io/sensor_yaml.hpp"
 #include "io/settings_yaml.hpp"
 #include "io/trajectory.hpp"
@@ -175,6 +178,13 @@ void run(const Options& options, int& exit_code) {
   const DatasetFacts& dataset = input.source().facts();
   const SensorModel sensor = sensor_of(options, scans.back(), input.source());
   facts.sensor = sensor.name;
+  std::vector<std::string> notes = input.source().notes();
+  if (sensor.motion_compensated && are_times(scans.back().offset_ns)) {
+    notes.emplace_back(
+        "the scans are declared motion compensated: the times of their points are not used");
+    if (!options.quiet) spdlog::info("{}", notes.back());
+  }
+  const std::size_t noted = input.source().notes().size();
   if (options.threads > 1) input.read_ahead();
 
   const std::filesystem::path folder = folder_of(options);
@@ -194,6 +204,12 @@ void run(const Options& options, int& exit_code) {
 
   input.finish_reader();
   facts.faults = input.faults();
+  const std::vector<std::string>& all_notes = input.final_notes();
+  for (std::size_t k = noted; k < all_notes.size(); ++k) {
+    if (!options.quiet) spdlog::info("{}", all_notes[k]);
+    notes.push_back(all_notes[k]);
+  }
+  facts.notes = std::move(notes);
   facts.interrupted = interrupted();
   facts.wall_seconds = wall_seconds();
   const RunSummary summary = work.writer.finish(work.slam, dataset, facts);

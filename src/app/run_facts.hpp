@@ -28,6 +28,7 @@ struct RunFacts {
   double wall_seconds = 0.0;
   bool interrupted = false;
   std::vector<std::string> faults;  ///< of the input, a sentence each
+  std::vector<std::string> notes;   ///< what was assumed of the input, a sentence each
   std::optional<NamedTruth> truth;
 };
 

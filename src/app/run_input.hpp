@@ -39,6 +39,12 @@ class RunInput {
   /// Ends the reader of a recording after its last scan. False when it reported a fault.
   bool finish_reader();
 
+  /// What was assumed of the scans, see ScanSource. Ends the reading ahead: no scan comes after it.
+  const std::vector<std::string>& final_notes() {
+    prefetcher_.reset();
+    return input_.source().notes();
+  }
+
   /// Number of scans taken, bad ones included.
   std::size_t taken() const { return taken_; }
   /// Number of scans expected in all, when known.

@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "app/input_findings.hpp"
 #include "core/error.hpp"
 #include "core/pose.hpp"
 #include "core/text.hpp"
@@ -116,6 +117,8 @@ RunSummary summarise(const Slam& slam, const Trajectory& trajectory, std::size_t
       {"map_points", map_points},
       {"interrupted", facts.interrupted},
       {"faults", facts.faults},
+      {"input_notes", facts.notes},
+      {"input_check", input_json(slam)},
       {"timing",
        {{"threads", facts.threads},
         {"wall_seconds", facts.wall_seconds},
@@ -132,7 +135,9 @@ RunSummary summarise(const Slam& slam, const Trajectory& trajectory, std::size_t
                 counts.scans, length, slam.key_frames().size(), counts.accepted_loops, map_points,
                 facts.wall_seconds, resources.cpu_seconds, milliseconds_per_scan,
                 resources.peak_megabytes);
-  return {std::move(json), text + notes_of(counts, slam.maps()) + health.text(),
+  std::string findings;
+  for (const std::string& sentence : input_sentences(slam)) findings += sentence + "\n";
+  return {std::move(json), text + notes_of(counts, slam.maps()) + health.text() + findings,
           describe(verdict)};
 }
 

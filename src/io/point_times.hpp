@@ -25,6 +25,7 @@ struct StampHint {
 struct PointTimes {
   std::int64_t stamp_ns = 0;
   std::vector<std::int32_t> offset_ns;  ///< empty: the points have no times
+  std::vector<std::uint32_t> stray;     ///< points whose times are far outside the sweep
   std::optional<TimeUnit> unit;         ///< used; nothing when the points have no times
   std::string decision;                 ///< the interpretation, one sentence
 };
@@ -34,9 +35,13 @@ struct PointTimes {
 /// relative to the stamp, others are absolute. Absolute times are on the clock of the stamp when
 /// they lie within one second of it; otherwise the earliest time is assumed to be at the stamp, and
 /// replaces the stamp when that is uncertain. The offset of NaN is 0. Constant times count as no
-/// times. When no unit fits, throws InputError, which names `file`, the values and the setting to
+/// times. Unsigned times that wrap below zero are read as the negative ones that they stand for. Up
+/// to 5 % of the times may be stray: they decide nothing, and their points are to be left out. When no unit fits, throws InputError, which names `file`, the values and the setting to
 /// give.
 PointTimes interpret_point_times(std::span<const double> times, NumberType type,
                                  const StampHint& hint, const std::string& file);
+
+/// Whether offsets tell points of a sweep apart: there are some, and they are not all the same.
+bool are_times(std::span<const std::int32_t> offset_ns);
 
 }  // namespace lego_loam_sc

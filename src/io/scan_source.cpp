@@ -6,7 +6,9 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <limits>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "core/error.hpp"
@@ -15,6 +17,7 @@
 #include "io/file.hpp"
 #include "io/pcd.hpp"
 #include "io/ply.hpp"
+#include "io/point_times.hpp"
 #include "io/scan_stream.hpp"
 
 namespace lego_loam_sc {
@@ -65,12 +68,26 @@ class FileSource : public ScanSource {
     PointTimes times = interpret(raw, hint, file);
     raw.scan.stamp_ns = times.stamp_ns;
     raw.scan.offset_ns = std::move(times.offset_ns);
+    leave_out(times.stray, file, raw.scan);
     // One driver wrote all scans, so the unit found in a full sweep holds for sparse scans too.
     if (times.unit && !unit_) {
       unit_ = times.unit;
       notes_.push_back(std::move(times.decision));
+    } else if (!times.unit && !raw.time.empty() && !missing_times_noted_) {
+      missing_times_noted_ = true;
+      notes_.push_back(file.filename().string() + ": " + times.decision);
     }
     return std::move(raw.scan);
+  }
+
+  void leave_out(std::span<const std::uint32_t> stray, const fs::path& file, Scan& scan) {
+    for (const std::uint32_t i : stray)
+      scan.points[i].setConstant(std::numeric_limits<float>::quiet_NaN());
+    if (stray.empty() || stray_times_noted_) return;
+    stray_times_noted_ = true;
+    notes_.push_back(file.filename().string() + ": " + std::to_string(stray.size()) +
+                     " points are left out, their times are far outside of the sweep; so are "
+                     "those of further scans");
   }
 
   static RawScan read_points(const fs::path& file) {
@@ -106,6 +123,8 @@ class FileSource : public ScanSource {
   std::vector<std::int64_t> stamps_ns_;
   std::size_t next_ = 0;
   std::optional<TimeUnit> unit_;
+  bool missing_times_noted_ = false;
+  bool stray_times_noted_ = false;
 };
 
 class StreamSource : public ScanSource {
@@ -113,10 +132,19 @@ class StreamSource : public ScanSource {
   StreamSource(std::istream& in, const std::string& name) : reader_(in, name) {
     facts_ = reader_.facts();
   }
-  std::optional<Scan> next() override { return reader_.next(); }
+  std::optional<Scan> next() override {
+    std::optional<Scan> scan = reader_.next();
+    if (scan && !missing_times_noted_ && !scan->offset_ns.empty() && !are_times(scan->offset_ns)) {
+      missing_times_noted_ = true;
+      notes_.push_back("the points have no times: the offsets of the scan at " +
+                       std::to_string(scan->stamp_ns) + " ns are all the same");
+    }
+    return scan;
+  }
 
  private:
   ScanStreamReader reader_;
+  bool missing_times_noted_ = false;
 };
 
 // The file must be opened before the reader is constructed and outlive it, so it is a base class.

@@ -308,6 +308,9 @@ MapMatch Mapper::align(const Features& points, const ScanGuess& guess) {
   prior.add_to(solution, r.pose);
   velocity_prior.add_to(solution, Sweep{r.pose}, r.twist);
   // With a guessed pose the residuals say nothing about the sensor.
+  if (!match.localizability.degenerate())
+    sweep_check_.add(r.correspondences.set(0), r.pose, r.scales[0], velocity_prior.mean(r.pose),
+                     r.twist);
   if (settings_.elevation_bias && !match.localizability.degenerate()) {
     elevation_bias_.add(r.correspondences.set(0), r.pose, r.scales[0], solution);
     row_bias_.add(r.correspondences.set(0), r.pose, r.scales[0]);

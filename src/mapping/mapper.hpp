@@ -9,6 +9,7 @@
 #include "map/local_map.hpp"
 #include "mapping/elevation_bias.hpp"
 #include "mapping/row_bias.hpp"
+#include "mapping/sweep_check.hpp"
 #include "mapping/settings.hpp"
 #include "mapping/sweep_priors.hpp"
 #include "registration/localizability.hpp"
@@ -60,6 +61,9 @@ class Mapper {
   /// rad; error of each row in addition to the common one, see RowBias; empty while unknown.
   const std::vector<double>& row_bias() const { return row_bias_.values(); }
 
+  /// Whether the times of the points fit the motion.
+  const SweepCheck& sweep_check() const { return sweep_check_; }
+
   /// Adds features that are already de-skewed.
   void insert(const Features& deskewed, const Pose& T_map_lidar);
 
@@ -73,7 +77,8 @@ class Mapper {
   /// See core/state_archive.hpp.
   template <class Archive>
   void state(Archive& archive) {
-    archive(map_, elevation_bias_, row_bias_, spacing_, last_insertion_, last_eviction_);
+    archive(map_, elevation_bias_, row_bias_, sweep_check_, spacing_, last_insertion_,
+            last_eviction_);
   }
 
  private:
@@ -99,6 +104,7 @@ class Mapper {
   LocalMap map_;
   ElevationBias elevation_bias_;
   RowBias row_bias_;
+  SweepCheck sweep_check_;
   double spacing_;  // m, voxel size of the filter over the matched points
   std::optional<Eigen::Vector3d> last_insertion_;
   Eigen::Vector3d last_eviction_ = Eigen::Vector3d::Zero();

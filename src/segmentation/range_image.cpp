@@ -141,19 +141,6 @@ std::vector<std::uint32_t> sort_points(const std::vector<std::uint16_t>& column,
   return place;
 }
 
-// The nearest point of each pixel.
-void fill_pixels(RangeImage& image) {
-  image.pixels.assign(static_cast<std::size_t>(image.rows) * image.columns, -1);
-  for (int row = 0; row < image.rows; ++row) {
-    std::int32_t* pixels = image.pixels.data() + static_cast<std::size_t>(row) * image.columns;
-    for (std::uint32_t k = image.row_begin[row]; k < image.row_begin[row + 1]; ++k) {
-      std::int32_t& nearest = pixels[image.column[k]];
-      if (nearest < 0 || image.range[k] < image.range[nearest])
-        nearest = static_cast<std::int32_t>(k);
-    }
-  }
-}
-
 // The time of each point after the middle of the sweep, s; empty when the points have no times or
 // are motion compensated. Fills `stamp_ns` and `reference_ns`.
 std::vector<float> point_times(const Scan& scan, const std::vector<std::uint16_t>& column,
@@ -162,14 +149,16 @@ std::vector<float> point_times(const Scan& scan, const std::vector<std::uint16_t
   image.stamp_ns = image.reference_ns = scan.stamp_ns;
   std::vector<float> time;
   if (sensor.motion_compensated || image.row_begin.back() == 0) return time;
+  auto first = std::numeric_limits<std::int64_t>::max();
+  auto last = std::numeric_limits<std::int64_t>::min();
   if (!scan.offset_ns.empty()) {
-    auto first = std::numeric_limits<std::int64_t>::max();
-    auto last = std::numeric_limits<std::int64_t>::min();
     for (std::size_t i = 0; i < column.size(); ++i) {
       if (column[i] == kNone) continue;
       first = std::min<std::int64_t>(first, scan.offset_ns[i]);
       last = std::max<std::int64_t>(last, scan.offset_ns[i]);
     }
+  }
+  if (first < last) {  // offsets that are all the same are no times
     const std::int64_t middle = first + (last - first) / 2;
     image.reference_ns += middle;
     time.resize(column.size());
@@ -198,6 +187,18 @@ int column_step(const RangeImage& image) {
 }
 
 }  // namespace
+
+void fill_pixels(RangeImage& image) {
+  image.pixels.assign(static_cast<std::size_t>(image.rows) * image.columns, -1);
+  for (int row = 0; row < image.rows; ++row) {
+    std::int32_t* pixels = image.pixels.data() + static_cast<std::size_t>(row) * image.columns;
+    for (std::uint32_t k = image.row_begin[row]; k < image.row_begin[row + 1]; ++k) {
+      std::int32_t& nearest = pixels[image.column[k]];
+      if (nearest < 0 || image.range[k] < image.range[nearest])
+        nearest = static_cast<std::int32_t>(k);
+    }
+  }
+}
 
 RangeImage project(const Scan& scan, const SensorModel& sensor) {
   const std::vector<float> range = ranges(scan);

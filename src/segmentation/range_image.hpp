@@ -47,4 +47,7 @@ struct RangeImage {
 /// row are dropped. The nearest of several points in one pixel represents it.
 RangeImage project(const Scan& scan, const SensorModel& sensor);
 
+/// Makes `pixels` anew from the points.
+void fill_pixels(RangeImage& image);
+
 }  // namespace lego_loam_sc

@@ -63,6 +63,13 @@ class Slam {
   /// unknown.
   double sensor_height() const { return tracker_.calibration().height; }
 
+  /// What the scans held that is no measurement of the surroundings, and whether the times of their
+  /// points fit the motion.
+  /// @{
+  const ScanFindings& findings() const { return tracker_.findings(); }
+  const SweepCheck& sweep_check() const { return tracker_.sweep_check(); }
+  /// @}
+
   /// Turns the LiDAR's axes level: by the mounting angles of the sensor model or as estimated.
   Eigen::Matrix3d R_level_lidar() const { return R_base_lidar(tracker_.calibration().sensor); }
 

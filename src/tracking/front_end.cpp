@@ -13,13 +13,17 @@ SensorModel mounted(SensorModel sensor, const Mounting& mounting) {
 }
 
 FrontEnd run_front_end(const Scan& scan, const SensorModel& sensor, double height,
-                       const FrontEndSettings& settings, bool find_tilt) {
+                       const FrontEndSettings& settings, bool find_tilt, ScanCheck& check) {
   FrontEnd result;
   StageTimer timer(result.milliseconds);
   timer.start(Stage::projection);
   SensorModel levelled = sensor;
   result.image = project(scan, levelled);
-  if (find_tilt && estimate_tilt(result.image, levelled)) result.image = project(scan, levelled);
+  check.check(result.image);
+  if (find_tilt && estimate_tilt(result.image, levelled)) {
+    result.image = project(scan, levelled);
+    check.correct(result.image);
+  }
   if (height == 0.0)
     height = estimate_sensor_height(result.image, levelled, settings.segmentation).value_or(0.0);
   result.mounting = {levelled.mount_roll_deg, levelled.mount_pitch_deg, height};
@@ -32,6 +36,12 @@ FrontEnd run_front_end(const Scan& scan, const SensorModel& sensor, double heigh
       extract_features(result.image, result.segmentation, levelled, settings.features);
   timer.stop();
   return result;
+}
+
+FrontEnd run_front_end(const Scan& scan, const SensorModel& sensor, double height,
+                       const FrontEndSettings& settings, bool find_tilt) {
+  ScanCheck check(sensor);
+  return run_front_end(scan, sensor, height, settings, find_tilt, check);
 }
 
 }  // namespace lego_loam_sc

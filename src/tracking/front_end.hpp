@@ -8,6 +8,7 @@
 #include "features/features.hpp"
 #include "segmentation/range_image.hpp"
 #include "segmentation/segmentation.hpp"
+#include "tracking/scan_check.hpp"
 #include "tracking/settings.hpp"
 #include "tracking/stage_timer.hpp"
 
@@ -34,7 +35,12 @@ struct FrontEnd {
 
 /// Projects and segments a scan and extracts its features. Estimates what is not known of the
 /// mounting: with `find_tilt` the tilt, when `sensor` states none, and with `height` 0 the height
-/// of the sensor above the ground (m), which stays 0 when no ground is seen.
+/// of the sensor above the ground (m), which stays 0 when no ground is seen. `check` knows the scans
+/// before.
+FrontEnd run_front_end(const Scan& scan, const SensorModel& sensor, double height,
+                       const FrontEndSettings& settings, bool find_tilt, ScanCheck& check);
+
+/// The same for a scan alone.
 FrontEnd run_front_end(const Scan& scan, const SensorModel& sensor, double height,
                        const FrontEndSettings& settings, bool find_tilt);
 

@@ -43,6 +43,7 @@ Tracker::Tracker(const SensorModel& sensor, const TrackerSettings& settings,
       key_frames_(std::move(key_frames)),
       calibration_(sensor),
       clock_(sensor.period),
+      check_(sensor),
       odometry_(settings.odometry, sensor.range_noise),
       mapper_(settings.mapping, sensor.range_noise, row_spacing(sensor)),
       map_updater_(settings.mapping.radius),
@@ -67,28 +68,35 @@ TrackedScan Tracker::track(const Scan& scan) {
 
 // A drive may begin at speed, but only the second scan shows the motion that the first sweep is to
 // be de-skewed with. So both are tracked anew, knowing it, until it no longer changes. Scans that
-// are motion compensated do not need it.
+// are motion compensated do not need it. What the two scans together have shown of the input, as
+// the body of the vehicle, is new to the first one too.
 TrackedScan Tracker::reprocess_first_scans(const FirstScan& first, const Scan& second,
                                            TrackedScan tracked) {
   const SensorModel& sensor = calibration_.nominal;
-  if (sensor.motion_compensated) return tracked;
-  Vector6 known = Vector6::Zero();
-  for (int k = 0; k < kMaxReprocessings; ++k) {
-    const Vector6 twist = motion_.twist;
-    const Vector6 motion = twist * sensor.period;
-    if (!is_placed(tracked.status) || (motion - known).head<3>().norm() < sensor.range_noise) break;
-    known = motion;
+  const auto track_again = [&](const Vector6& twist) {
     const int index = tracked.index;
     const std::uint64_t hash = progress_.last_scan.points_hash;
+    ScanCheck check = std::move(check_);
+    check.restart();
     *this = Tracker(calibration_.nominal, settings_, key_frames_);
     progress_.last_scan.points_hash = hash;
+    check_ = std::move(check);
     motion_.twist = twist;
     motion_.speed = twist.head<3>().norm();
-    motion_.known = true;
+    motion_.known = !twist.isZero();
     auto first_again = std::make_shared<TrackedScan>(track_once(first.scan, first.index));
     tracked = track_once(second, index);
     tracked.first_again = std::move(first_again);
     progress_.scans = index + 1;
+  };
+  if (check_.has_learnt()) track_again(Vector6::Zero());
+  if (sensor.motion_compensated) return tracked;
+  Vector6 known = Vector6::Zero();
+  for (int k = 0; k < kMaxReprocessings; ++k) {
+    const Vector6 motion = motion_.twist * sensor.period;
+    if (!is_placed(tracked.status) || (motion - known).head<3>().norm() < sensor.range_noise) break;
+    known = motion;
+    track_again(Vector6(motion_.twist));
   }
   return tracked;
 }
@@ -163,7 +171,8 @@ TrackedScan Tracker::track_once(const Scan& scan, int index) {
 // The first scans also show how the sensor is mounted.
 FrontEnd Tracker::look_at(const Scan& scan, std::int64_t time_ns) {
   FrontEnd front_end =
-      run_front_end(scan, calibration_.sensor, calibration_.height, settings_, mapper_.empty());
+      run_front_end(scan, calibration_.sensor, calibration_.height, settings_, mapper_.empty(),
+                    check_);
   front_end.image.reference_ns += time_ns - scan.stamp_ns;
   calibration_.set_mounting(front_end.mounting);
   return front_end;

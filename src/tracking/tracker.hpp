@@ -14,6 +14,7 @@
 #include "tracking/front_end.hpp"
 #include "tracking/local_map_updater.hpp"
 #include "tracking/motion_state.hpp"
+#include "tracking/scan_check.hpp"
 #include "tracking/scan_clock.hpp"
 #include "tracking/settings.hpp"
 #include "tracking/tracked_scan.hpp"
@@ -45,11 +46,17 @@ class Tracker {
   /// With the mounting as it is known by now.
   const Calibration& calibration() const { return calibration_; }
 
+  /// What the scans held that is no measurement of the surroundings.
+  const ScanFindings& findings() const { return check_.findings(); }
+
+  /// Whether the times of the points fit the motion.
+  const SweepCheck& sweep_check() const { return mapper_.sweep_check(); }
+
   /// See core/state_archive.hpp.
   template <class Archive>
   void state(Archive& archive) {
-    archive(calibration_, clock_, odometry_, mapper_, map_updater_, monitor_, witness_, motion_,
-            progress_);
+    archive(calibration_, clock_, check_, odometry_, mapper_, map_updater_, monitor_, witness_,
+            motion_, progress_);
   }
 
  private:
@@ -137,6 +144,7 @@ class Tracker {
   std::shared_ptr<const KeyFrames> key_frames_;
   Calibration calibration_;
   ScanClock clock_;
+  ScanCheck check_;
   Odometry odometry_;
   Mapper mapper_;
   LocalMapUpdater map_updater_;

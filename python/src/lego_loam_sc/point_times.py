@@ -15,6 +15,8 @@ _UNIT_NAMES = {"s": "seconds", "ms": "milliseconds", "us": "microseconds", "ns":
 
 _SHORTEST_SWEEP_NS, _LONGEST_SWEEP_NS = 20e6, 500e6
 _SAME_CLOCK_NS = 1_000_000_000
+_SAMPLES = 1000  # times that the bulk of a scan is told by, about
+_STRAY_SHARE = 0.05  # at most, at either end and in all
 
 
 @dataclass
@@ -22,6 +24,7 @@ class PointTimes:
     """Times of the points of one scan."""
 
     offset_ns: np.ndarray  # int32, after the stamp; 0 where there is no time
+    stray: np.ndarray  # bool, points whose times are far outside of the sweep
     unit: str  # a key of UNITS_NS
     decision: str  # what was decided, one sentence
 
@@ -35,15 +38,21 @@ def interpret(
     which the span of the times does decides, unless one is given. Times within one second of zero
     count from the stamp; others are a clock's: the stamp's own when they lie within one second of
     it, else the earliest is taken to be at the stamp. Times that are all the same are no times:
-    None. Raises InputError with the numbers seen and the setting to give when no unit fits.
+    None. Unsigned times that run through zero are taken for the negative ones that they stand for.
+    Up to 5 % of the times may be stray: they decide nothing, and their points have to be left out.
+    Raises InputError with the numbers seen and the setting to give when no unit fits.
     """
     known = returned & np.isfinite(times) if times.dtype.kind == "f" else returned
     seen = times[known]
     if seen.size == 0:
         return None
-    earliest, latest = seen.min(), seen.max()
-    if not latest > earliest:
+    if not seen.max() > seen.min():
         return None
+    times, seen = _without_wraps(times, seen), _without_wraps(seen, seen)
+    stray = known & _strays(times, seen)
+    known = known & ~stray
+    seen = times[known]
+    earliest, latest = seen.min(), seen.max()
     unit = _decide_unit(earliest, latest, unit)
     base = int(np.floor(earliest))
     base_ns = base * UNITS_NS[unit]
@@ -54,10 +63,38 @@ def interpret(
     begin_ms, end_ms = (first_ns - origin_ns) / 1e6, (last_ns - origin_ns) / 1e6
     return PointTimes(
         np.where(known, offset_ns, 0).astype(np.int32),
+        stray,
         unit,
         f"{_UNIT_NAMES[unit]} {origin}; "
         f"a sweep runs from {begin_ms:.1f} to {end_ms:.1f} ms after it",
     )
+
+
+def _without_wraps(times: np.ndarray, seen: np.ndarray) -> np.ndarray:
+    """The times before zero that a field without a sign holds in the upper half of its numbers.
+
+    No sweep spans half of 32 bits in any unit.
+    """
+    if times.dtype.kind != "u" or times.dtype.itemsize < 4:
+        return times
+    half = 1 << (8 * times.dtype.itemsize - 1)
+    if int(seen.max()) - int(seen.min()) <= half:
+        return times
+    return times.view(np.dtype(f"{times.dtype.byteorder}i{times.dtype.itemsize}"))
+
+
+def _strays(times: np.ndarray, seen: np.ndarray) -> np.ndarray:
+    """Which times are too far from most of those `seen` to belong to their sweep."""
+    samples = np.sort(seen[:: 1 + seen.size // _SAMPLES]).astype(np.float64)
+    skipped = int(_STRAY_SHARE * samples.size)
+    first, last = samples[skipped], samples[-1 - skipped]
+    with np.errstate(invalid="ignore", over="ignore"):
+        span = last - first
+        far = np.abs(times.astype(np.float64) - (first + last) / 2) > 1.5 * span
+        few = np.count_nonzero(np.abs(seen.astype(np.float64) - (first + last) / 2) > 1.5 * span)
+    if span <= 0 or few > _STRAY_SHARE * seen.size:  # the sweep is an odd one
+        return np.zeros(times.shape, bool)
+    return far
 
 
 def _since(base: int, times: np.ndarray, unit: str) -> np.ndarray:

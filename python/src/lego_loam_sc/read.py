@@ -11,6 +11,8 @@ from importlib.metadata import version
 from itertools import chain, islice
 from pathlib import Path
 
+import numpy as np
+
 from lego_loam_sc import bag_scans, capture, point_times
 from lego_loam_sc.bag import Bag
 from lego_loam_sc.errors import Faults, InputError, Report, say
@@ -147,12 +149,22 @@ def _with_times(
     head = list(islice(raws, _UNIT_SCANS))
     if unit != "none":
         unit = _decide_unit(head, path, unit, note)
+    stray_noted = False
     for raw in chain(head, raws):
         scan = Scan(raw.stamp_ns, raw.points, raw.intensity, raw.ring)
         try:
             if raw.times is not None and unit in point_times.UNITS_NS:
                 times = point_times.interpret(raw.times, raw.returned(), raw.stamp_ns, unit)
                 scan.offset_ns = times.offset_ns if times else None
+                if times and times.stray.any():
+                    scan.points = np.where(times.stray[:, None], np.float32(np.nan), scan.points)
+                    if not stray_noted:
+                        note(
+                            f"the scan at {raw.stamp_ns} ns: {np.count_nonzero(times.stray)} points "
+                            "are left out, their times are far outside of the sweep; so are those "
+                            "of further scans"
+                        )
+                    stray_noted = True
         except InputError as error:
             report(f"the scan at {raw.stamp_ns} ns is left out: {error}")
             continue
@@ -162,6 +174,7 @@ def _with_times(
 def _decide_unit(head: list[RawScan], path: Path, unit: str | None, note: Note) -> str | None:
     """The unit that the first scan with times shows; one driver wrote all scans."""
     undecided = None
+    equal = None
     for raw in head:
         try:
             if raw.times is None:
@@ -173,10 +186,12 @@ def _decide_unit(head: list[RawScan], path: Path, unit: str | None, note: Note) 
         if times:
             note(f"field {raw.time_field}: {times.decision}")
             return times.unit
+        equal = equal or raw.time_field
     if undecided:
         raise undecided
     if head:
-        note("the points have no times")
+        why = f": field {equal} is the same for all of them" if equal else ""
+        note(f"the points have no times{why}")
     return None
 
 
