@@ -39,10 +39,10 @@ void SweepCheck::add(std::span<const Correspondence> correspondences, const Pose
     if (c.kind != Correspondence::Kind::plane) continue;
     const Eigen::Vector3d rotated = R * c.point;
     const double now = c.direction.dot(rotated + T_map_lidar.translation() - c.anchor);
-    const double raw = now - c.age * c.direction.dot(R * velocity_of(c.point, twist));
+    const double raw = now - c.time * c.direction.dot(R * velocity_of(c.point, twist));
     Vector7 row;
     row << c.direction, rotated.cross(c.direction),
-        c.age * c.direction.dot(R * velocity_of(c.point, mean_twist));
+        c.time * c.direction.dot(R * velocity_of(c.point, mean_twist));
     const double weight = robust_weight(c, now, scale);
     H += weight * row * row.transpose();
     g += weight * raw * row;
