@@ -62,6 +62,18 @@ void apply(const YamlEntry& entry, Settings& settings) {
   if (!setter.found) fail_unknown_key(entry, all_keys());
 }
 
+// A method may be based on another one, whose settings come first.
+void apply_method(const std::string& method, Settings& settings) {
+  const auto preset = find_preset("methods", method);
+  if (!preset) throw InputError("there is no method " + describe_unknown("methods", method));
+  const std::vector<YamlEntry> entries = parse_yaml(*preset, "the preset " + method);
+  const auto is_base = [](const YamlEntry& entry) { return entry.key == "base"; };
+  for (const YamlEntry& entry : entries)
+    if (is_base(entry)) apply_method(to_string(entry), settings);
+  for (const YamlEntry& entry : entries)
+    if (!is_base(entry)) apply(entry, settings);
+}
+
 void apply_assignment(const std::string& assignment, Settings& settings) {
   const std::size_t sign = assignment.find('=');
   if (sign == assignment.npos || sign == 0 || sign + 1 == assignment.size())
@@ -106,10 +118,8 @@ void apply_settings_yaml(const std::string& text, const std::string& file, Setti
 Settings load_settings(const std::string& method,
                        const std::optional<std::filesystem::path>& config_file,
                        const std::vector<std::string>& assignments) {
-  const auto preset = find_preset("methods", method);
-  if (!preset) throw InputError("there is no method " + describe_unknown("methods", method));
   Settings settings;
-  apply_settings_yaml(*preset, "the preset " + method, settings);
+  apply_method(method, settings);
   if (config_file) apply_settings_yaml(read_file(*config_file), config_file->string(), settings);
   for (const std::string& assignment : assignments) apply_assignment(assignment, settings);
   // Single values were checked with their line; this checks their combination.
