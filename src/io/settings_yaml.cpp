@@ -2,7 +2,6 @@
 #include "io/settings_yaml.hpp"
 
 #include <algorithm>
-#include <type_traits>
 
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -13,14 +12,13 @@
 namespace lego_loam_sc {
 namespace {
 
-// Calls visit(group, name, value, ...) for every setting, with the limits and comment of its field.
+// Calls visit(group, name, value, ...) for every setting, with its limits and comment.
 template <class SettingsOrConst, class Visit>
 void visit_all(SettingsOrConst& settings, Visit&& visit) {
   Settings::groups(settings, [&](const std::string& group, auto& section) {
-    std::remove_cvref_t<decltype(section)>::fields(
-        section, [&](const char* name, auto&&... value_and_facts) {
-          visit(group, name, value_and_facts...);
-        });
+    visit_settings(section, [&](const char* name, auto&&... value_and_facts) {
+      visit(group, name, value_and_facts...);
+    });
   });
 }
 

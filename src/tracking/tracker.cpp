@@ -13,8 +13,6 @@
 namespace lego_loam_sc {
 namespace {
 
-// Scans with fewer points than this are not worth matching.
-constexpr std::size_t kMinPoints = 100;
 // Maximum number of times the first two scans are reprocessed.
 constexpr int kMaxReprocessings = 2;
 // Two scans with sweeps of different length may have reference times out of order, s.
@@ -30,7 +28,8 @@ Tracker::Tracker(const SensorModel& sensor, const TrackerSettings& settings,
       clock_(sensor.period),
       odometry_(settings.odometry, sensor.range_noise),
       mapper_(settings.mapping, sensor.range_noise, row_spacing(sensor)),
-      map_updater_(settings.mapping.radius) {}
+      map_updater_(settings.mapping.radius),
+      monitor_(settings.tracking) {}
 
 TrackedScan Tracker::track(const Scan& scan) {
   const bool first = last_key_frame_.number < 0;
@@ -137,7 +136,7 @@ Tracker::Step Tracker::begin_step(const FrontEnd& front_end, const ScanTime& tim
       step.first ? calibration_.sensor.period
                  : std::max(seconds(reference_ns - motion_.previous.reference_ns), kShortestStep);
   step.stamp_age = seconds(time.time_ns - reference_ns);
-  step.enough_points = front_end.image.size() >= kMinPoints;
+  step.enough_points = std::ssize(front_end.image.points) >= settings_.tracking.min_points;
   monitor_.note_gap(step.jump_s, step.seconds);
   // The map begins at the first scan's stamp. Motion at the first stamp is known only after
   // reprocessing.
