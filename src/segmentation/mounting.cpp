@@ -18,8 +18,8 @@ using Eigen::Vector3d;
 
 // m round the sensor, where the ground is dense and nearly a plane.
 constexpr double kRadius = 15.0;
-// Share of the points on the ground, at least. Of kMaxPoints that many are plenty, and of the planes
-// through three points (RANSAC) every thousandth is then the ground.
+// Share of the points on the ground, at least. Of kMaxPoints that many are plenty, and of the
+// planes through three points (RANSAC) every thousandth is then the ground.
 constexpr double kMinSupport = 0.1;
 constexpr std::size_t kMaxPoints = 3000;
 constexpr int kTrials = 2000;
