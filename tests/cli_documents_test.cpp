@@ -9,7 +9,6 @@
 #include <set>
 #include <string>
 #include <tuple>
-#include <type_traits>
 #include <vector>
 
 #include "cli_program.hpp"
@@ -61,16 +60,15 @@ std::map<std::string, std::string> expected_settings() {
   std::map<std::string, std::string> expected;
   const Settings settings = load_settings("lego-loam-sc", {}, {});
   Settings::groups(settings, [&](const std::string& group, const auto& section) {
-    std::remove_cvref_t<decltype(section)>::fields(
-        section, [&](const std::string& name, auto value, auto... facts) {
-          std::string& row = expected[group + "." + name];
-          if constexpr (sizeof...(facts) == 3) {
-            const auto [minimum, maximum, comment] = std::tuple(facts...);
-            row = to_text(value) + ", " + to_text(minimum) + " to " + to_text(maximum);
-          } else {
-            row = value ? "true, true or false" : "false, true or false";
-          }
-        });
+    visit_settings(section, [&](const std::string& name, auto value, auto... facts) {
+      std::string& row = expected[group + "." + name];
+      if constexpr (sizeof...(facts) == 3) {
+        const auto [minimum, maximum, comment] = std::tuple(facts...);
+        row = to_text(value) + ", " + to_text(minimum) + " to " + to_text(maximum);
+      } else {
+        row = value ? "true, true or false" : "false, true or false";
+      }
+    });
   });
   return expected;
 }

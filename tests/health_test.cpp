@@ -48,19 +48,18 @@ TEST(Health, WhatAScanHasNotIsNoFault) {
   const Vitals vitals = vitals_of(report, sensor_of_ten_thousand_beams(), 0.0);
   for (const Vital vital : {Vital::inliers, Vital::residual, Vital::degeneracy}) {
     EXPECT_TRUE(std::isnan(value(vitals, vital)));
-    EXPECT_EQ(level_of(vital, value(vitals, vital)), HealthLevel::ok);
+    EXPECT_EQ(level_of(value(vitals, vital), limits_of({})[static_cast<std::size_t>(vital)]),
+              HealthLevel::ok);
   }
 }
 
 TEST(Health, LevelsBeginAtTheirLimits) {
-  for (std::size_t v = 0; v < kVitals; ++v) {
-    const VitalLimits& limits = vital_limits()[v];
-    const Vital vital = static_cast<Vital>(v);
-    const double worse = limits.low_is_bad ? -1e-9 : 1e-9;
-    EXPECT_EQ(level_of(vital, limits.warning - worse), HealthLevel::ok) << limits.name;
-    EXPECT_EQ(level_of(vital, limits.warning + worse), HealthLevel::warning) << limits.name;
-    EXPECT_EQ(level_of(vital, limits.error - worse), HealthLevel::warning) << limits.name;
-    EXPECT_EQ(level_of(vital, limits.error + worse), HealthLevel::error) << limits.name;
+  for (const VitalLimit& limit : limits_of({})) {
+    const double worse = limit.low_is_bad ? -1e-9 : 1e-9;
+    EXPECT_EQ(level_of(limit.warning - worse, limit), HealthLevel::ok) << limit.name;
+    EXPECT_EQ(level_of(limit.warning + worse, limit), HealthLevel::warning) << limit.name;
+    EXPECT_EQ(level_of(limit.error - worse, limit), HealthLevel::warning) << limit.name;
+    EXPECT_EQ(level_of(limit.error + worse, limit), HealthLevel::error) << limit.name;
   }
 }
 

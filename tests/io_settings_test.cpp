@@ -29,6 +29,15 @@ TEST(SettingsYaml, AllMethodsLoad) {
     EXPECT_FALSE(validate(load_settings(name, {}, {}))) << name;
 }
 
+TEST(SettingsYaml, AMethodDiffersFromItsBaseInWhatItNames) {
+  const Settings paper = load_settings("lego-loam-sc-paper", {}, {});
+  const Settings loam = load_settings("loam", {}, {});
+  EXPECT_EQ(loam.features.edges_large, paper.features.edges_large);
+  EXPECT_NE(loam.features.edges_large, Settings{}.features.edges_large);
+  EXPECT_TRUE(paper.odometry.two_step);
+  EXPECT_FALSE(loam.odometry.two_step);
+}
+
 TEST(SettingsYaml, WhatIsPrintedLoadsToTheSameSettings) {
   const TemporaryFolder folder;
   Settings settings;

@@ -20,7 +20,7 @@ const MapMatch kContradicted = matched(30);
 const MapMatch kUnmatched;
 
 TEST(TrackingMonitor, TheOdometryAloneTellsThePlaceAsLongAsNothingIsInDoubt) {
-  TrackingMonitor monitor;
+  TrackingMonitor monitor{TrackingSettings{}};
   EXPECT_TRUE(monitor.place_is_known(true, kUnmatched));
   EXPECT_TRUE(monitor.place_is_known(true, kContradicted));
   EXPECT_FALSE(monitor.place_is_known(false, kUnmatched));
@@ -28,7 +28,7 @@ TEST(TrackingMonitor, TheOdometryAloneTellsThePlaceAsLongAsNothingIsInDoubt) {
 
 TEST(TrackingMonitor, AfterAGapOnlyTheMapTellsThePlace) {
   for (const auto& [jump_s, seconds] : {std::pair(3600.0, 0.1), std::pair(0.0, 10.0)}) {
-    TrackingMonitor monitor;
+    TrackingMonitor monitor{TrackingSettings{}};
     monitor.note_gap(jump_s, seconds);
     EXPECT_FALSE(monitor.place_is_known(true, kUnmatched));
     EXPECT_FALSE(monitor.place_is_known(true, kContradicted));
@@ -38,14 +38,14 @@ TEST(TrackingMonitor, AfterAGapOnlyTheMapTellsThePlace) {
 }
 
 TEST(TrackingMonitor, AFewScansGapIsNone) {
-  TrackingMonitor monitor;
+  TrackingMonitor monitor{TrackingSettings{}};
   monitor.note_gap(0.0, 0.5);
   EXPECT_TRUE(monitor.place_is_known(true, kUnmatched));
 }
 
 // Once lost, a scan that the map contradicts is no better for an odometry that goes on.
 TEST(TrackingMonitor, WhoIsLostIsFoundByTheMapOrByAnOdometryThatItDoesNotContradict) {
-  TrackingMonitor monitor;
+  TrackingMonitor monitor{TrackingSettings{}};
   EXPECT_FALSE(monitor.place_is_known(false, kUnmatched));
   EXPECT_FALSE(monitor.place_is_known(true, kContradicted));
   EXPECT_TRUE(monitor.place_is_known(true, kUnmatched));
@@ -54,7 +54,7 @@ TEST(TrackingMonitor, WhoIsLostIsFoundByTheMapOrByAnOdometryThatItDoesNotContrad
 }
 
 TEST(TrackingMonitor, PatienceEndsAfterTenScansInARow) {
-  TrackingMonitor monitor;
+  TrackingMonitor monitor{TrackingSettings{}};
   for (int scan = 0; scan < 9; ++scan) monitor.place_is_known(false, kUnmatched);
   EXPECT_FALSE(monitor.should_start_new_map());
   monitor.place_is_known(false, kUnmatched);

@@ -35,32 +35,33 @@ double HealthLog::follow_delay(const ScanReport& report) {
 
 HealthLog::Line HealthLog::add(const ScanReport& report) {
   const Vitals values = vitals_of(report, sensor_, follow_delay(report));
-  Line line{{}, {}, 1e3 * delay_s_, level_of(Vital::delay, delay_s_)};
+  Line line{
+      {}, {}, 1e3 * delay_s_, level_of(delay_s_, limits_[static_cast<std::size_t>(Vital::delay)])};
   for (std::size_t v = 0; v < kVitals; ++v) {
-    const VitalLimits& limits = vital_limits()[v];
+    const VitalLimit& limit = limits_[v];
     Sum& sum = sums_[v];
     if (std::isnan(values[v])) continue;
-    if (!sum.worst || (limits.low_is_bad ? values[v] < *sum.worst : values[v] > *sum.worst)) {
+    if (!sum.worst || (limit.low_is_bad ? values[v] < *sum.worst : values[v] > *sum.worst)) {
       sum.worst = values[v];
       sum.worst_scan = report.index;
     }
-    const HealthLevel level = level_of(static_cast<Vital>(v), values[v]);
+    const HealthLevel level = level_of(values[v], limit);
     if (level == HealthLevel::ok) continue;
     ++(level == HealthLevel::warning ? sum.warnings : sum.errors);
     if (static_cast<Vital>(v) == Vital::delay) continue;
     std::string& names = level == HealthLevel::warning ? line.warnings : line.errors;
-    names += (names.empty() ? "" : " ") + std::string(limits.name);
+    names += (names.empty() ? "" : " ") + std::string(limit.name);
   }
   return line;
 }
 
 nlohmann::ordered_json HealthLog::to_json(Vital vital) const {
   const auto v = static_cast<std::size_t>(vital);
-  const VitalLimits& limits = vital_limits()[v];
+  const VitalLimit& limit = limits_[v];
   const Sum& sum = sums_[v];
-  nlohmann::ordered_json json = {{"unit", limits.unit},         {"warning_level", limits.warning},
-                                 {"error_level", limits.error}, {"warnings", sum.warnings},
-                                 {"errors", sum.errors},        {"worst", nullptr},
+  nlohmann::ordered_json json = {{"unit", limit.unit},         {"warning_level", limit.warning},
+                                 {"error_level", limit.error}, {"warnings", sum.warnings},
+                                 {"errors", sum.errors},       {"worst", nullptr},
                                  {"worst_scan", nullptr}};
   if (sum.worst) {
     json["worst"] = *sum.worst;
@@ -73,20 +74,20 @@ nlohmann::ordered_json HealthLog::to_json() const {
   nlohmann::ordered_json json;
   for (std::size_t v = 0; v < kVitals; ++v)
     if (static_cast<Vital>(v) != Vital::delay)
-      json[std::string(vital_limits()[v].name)] = to_json(static_cast<Vital>(v));
+      json[std::string(limits_[v].name)] = to_json(static_cast<Vital>(v));
   return json;
 }
 
 std::string HealthLog::text() const {
   std::string text;
   for (std::size_t v = 0; v < kVitals; ++v) {
-    const VitalLimits& limits = vital_limits()[v];
+    const VitalLimit& limit = limits_[v];
     const Sum& sum = sums_[v];
     if (!sum.worst || sum.warnings + sum.errors == 0) continue;
-    const std::string unit = limits.unit.empty() ? "" : " " + std::string(limits.unit);
-    text += std::string(limits.name) + ": " + std::to_string(sum.warnings) + " warnings, " +
-            std::to_string(sum.errors) + " errors (levels " + short_text(limits.warning) + " and " +
-            short_text(limits.error) + unit + "), worst " + short_text(*sum.worst) + unit +
+    const std::string unit = limit.unit.empty() ? "" : " " + std::string(limit.unit);
+    text += std::string(limit.name) + ": " + std::to_string(sum.warnings) + " warnings, " +
+            std::to_string(sum.errors) + " errors (levels " + short_text(limit.warning) + " and " +
+            short_text(limit.error) + unit + "), worst " + short_text(*sum.worst) + unit +
             " in scan " + std::to_string(sum.worst_scan) + "\n";
   }
   return text;

@@ -15,7 +15,8 @@ namespace lego_loam_sc {
 /// and differs from run to run, while the other columns are compared byte by byte.
 class HealthLog {
  public:
-  explicit HealthLog(SensorModel sensor) : sensor_(std::move(sensor)) {}
+  HealthLog(SensorModel sensor, const HealthSettings& settings)
+      : sensor_(std::move(sensor)), limits_(limits_of(settings)) {}
 
   /// The health columns of scans.csv.
   struct Line {
@@ -59,6 +60,7 @@ class HealthLog {
   double follow_delay(const ScanReport& report);
 
   SensorModel sensor_;
+  VitalLimits limits_;
   std::array<Sum, kVitals> sums_;
   std::optional<std::int64_t> stamp_ns_;  // of the last scan
   double delay_s_ = 0.0;                  // after it

@@ -62,7 +62,7 @@ ResultWriter::ResultWriter(std::filesystem::path folder, const SensorModel& sens
     : folder_(std::move(folder)),
       sensor_(sensor),
       settings_(settings),
-      health_(sensor),
+      health_(sensor, settings.health),
       scans_(folder_ / "scans.csv"),
       loops_(folder_ / "loops.csv"),
       odometry_(folder_ / "odometry.tum") {}

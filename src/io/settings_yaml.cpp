@@ -2,7 +2,6 @@
 #include "io/settings_yaml.hpp"
 
 #include <algorithm>
-#include <type_traits>
 
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -13,14 +12,13 @@
 namespace lego_loam_sc {
 namespace {
 
-// Calls visit(group, name, value, ...) for every setting, with the limits and comment of its field.
+// Calls visit(group, name, value, ...) for every setting, with its limits and comment.
 template <class SettingsOrConst, class Visit>
 void visit_all(SettingsOrConst& settings, Visit&& visit) {
   Settings::groups(settings, [&](const std::string& group, auto& section) {
-    std::remove_cvref_t<decltype(section)>::fields(
-        section, [&](const char* name, auto&&... value_and_facts) {
-          visit(group, name, value_and_facts...);
-        });
+    visit_settings(section, [&](const char* name, auto&&... value_and_facts) {
+      visit(group, name, value_and_facts...);
+    });
   });
 }
 
@@ -60,6 +58,18 @@ void apply(const YamlEntry& entry, Settings& settings) {
   Setter setter{entry};
   visit_all(settings, setter);
   if (!setter.found) fail_unknown_key(entry, all_keys());
+}
+
+// A method may be based on another one, whose settings come first.
+void apply_method(const std::string& method, Settings& settings) {
+  const auto preset = find_preset("methods", method);
+  if (!preset) throw InputError("there is no method " + describe_unknown("methods", method));
+  const std::vector<YamlEntry> entries = parse_yaml(*preset, "the preset " + method);
+  const auto is_base = [](const YamlEntry& entry) { return entry.key == "base"; };
+  for (const YamlEntry& entry : entries)
+    if (is_base(entry)) apply_method(to_string(entry), settings);
+  for (const YamlEntry& entry : entries)
+    if (!is_base(entry)) apply(entry, settings);
 }
 
 void apply_assignment(const std::string& assignment, Settings& settings) {
@@ -106,10 +116,8 @@ void apply_settings_yaml(const std::string& text, const std::string& file, Setti
 Settings load_settings(const std::string& method,
                        const std::optional<std::filesystem::path>& config_file,
                        const std::vector<std::string>& assignments) {
-  const auto preset = find_preset("methods", method);
-  if (!preset) throw InputError("there is no method " + describe_unknown("methods", method));
   Settings settings;
-  apply_settings_yaml(*preset, "the preset " + method, settings);
+  apply_method(method, settings);
   if (config_file) apply_settings_yaml(read_file(*config_file), config_file->string(), settings);
   for (const std::string& assignment : assignments) apply_assignment(assignment, settings);
   // Single values were checked with their line; this checks their combination.

@@ -23,7 +23,8 @@ LoopCloser::LoopCloser(const LoopSettings& settings, const GraphSettings& graph,
       graph_settings_(graph),
       range_noise_(range_noise),
       search_(settings, std::move(detector)),
-      pacing_(settings.spacing) {}
+      pacing_(settings.spacing),
+      insertion_(settings.contradiction_sigmas) {}
 
 std::vector<LoopReport> LoopCloser::close(const KeyFrames& key_frames, ScanContext context,
                                           MapFragments& fragments, PoseGraph& graph) {

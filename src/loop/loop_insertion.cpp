@@ -4,9 +4,6 @@
 namespace lego_loam_sc {
 namespace {
 
-// Mahalanobis distance of a loop from the optimised graph above which it is taken out again: of six
-// degrees of freedom a true one exceeds it once in ten million.
-constexpr double kContradiction = 7.0;
 // Consistent loops are batched: re-optimise when they are this share of all loops. Of true ones 19
 // in 20 are as near to the graph as this.
 constexpr double kConsistent = 3.5;
@@ -22,7 +19,7 @@ bool LoopInsertion::insert(const PoseEdge& loop, bool joins_maps, PoseGraph& gra
     return true;
   loops_since_optimisation_ = 0;
   graph.optimise();
-  if (graph.loop_chi(loops - 1) <= kContradiction) return true;
+  if (graph.loop_chi(loops - 1) <= contradiction_sigmas_) return true;
   graph.remove_loop(loops - 1);
   graph.optimise();
   return false;

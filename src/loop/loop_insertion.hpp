@@ -8,6 +8,10 @@ namespace lego_loam_sc {
 /// Adds loops to the pose graph and takes one out again that the others contradict.
 class LoopInsertion {
  public:
+  /// See LoopSettings::contradiction_sigmas.
+  explicit LoopInsertion(double contradiction_sigmas)
+      : contradiction_sigmas_(contradiction_sigmas) {}
+
   /// Adds a loop and optimises, except that in a graph of many loops a consistent one waits for a
   /// few more. `joins_maps`: the graph knew nothing of their relative pose. False when the
   /// optimised graph contradicts the loop, which is then taken out again.
@@ -20,6 +24,7 @@ class LoopInsertion {
   }
 
  private:
+  double contradiction_sigmas_;
   int loops_since_optimisation_ = 0;
 };
 

@@ -16,8 +16,6 @@ namespace {
 
 // m; visits this near to each other are at the same place.
 constexpr double kSamePlace = 2.0;
-// Between two maps there is no pose graph to contradict a candidate, so more of them are tried.
-constexpr std::size_t kJoinCandidates = 3;
 
 }  // namespace
 
@@ -49,14 +47,16 @@ std::vector<LoopCandidate> LoopSearch::candidates(const DriveView& drive, int el
   return found;
 }
 
-// c* of equation (8), and a few more that would join maps.
+// c* of equation (8), and a few more that would join maps: there is no pose graph to contradict
+// one.
 std::vector<LoopCandidate> LoopSearch::by_scan_context(const DriveView& drive, int eligible,
                                                        const ScanContext& context) const {
   std::vector<LoopCandidate> found;
   for (const LoopCandidate& candidate : contexts_.search(drive.newest(), context, eligible)) {
     const bool best = found.empty();
     const bool joins = drive.joins_maps(candidate.match);
-    if (best || (joins && found.size() < kJoinCandidates)) found.push_back(candidate);
+    if (best || (joins && std::ssize(found) < settings_.join_candidates))
+      found.push_back(candidate);
   }
   return found;
 }

@@ -14,13 +14,10 @@
 namespace lego_loam_sc {
 namespace {
 
-constexpr double kPlanarity = 0.1;
-// Reach of a correspondence, in voxels of its level.
+// Reach of a correspondence, in voxels of its level: a surface spans two.
 constexpr double kReachVoxels = 1.5;
+// Wide: a guess may be metres off.
 constexpr RobustKernel kKernel{.factor = 2.0, .min_scale = 1.0, .max_scale = 80.0};
-// Whole constraints that hold each direction of a loop.
-constexpr double kMinStrength = 5.0;
-constexpr int kMinMatches = 50;
 
 void append(const std::vector<FeaturePoint>& points, const Eigen::Isometry3f& T_frame_key,
             std::vector<FeaturePoint>& cloud) {
@@ -58,7 +55,7 @@ Pose register_coarse_to_fine(const Features& query, LocalMap& map, Pose pose, do
     MatchedSurfaces surfaces;
     for (int k = 0; k < settings.iterations; ++k) {
       const auto correspondences = map.match(query, pose, reach, range_noise, level, surfaces).all;
-      if (static_cast<int>(correspondences.size()) < kMinMatches) break;
+      if (std::ssize(correspondences) < settings.min_matches) break;
       const double scale = robust_scale(correspondences, pose, kKernel);
       const auto result = levenberg_marquardt<6>(
           pose, 2, [&](const Pose& at) { return normal_equations(correspondences, at, scale); },
@@ -84,7 +81,7 @@ LoopVerification judge(const Features& query, LocalMap& map, const Pose& pose, d
   MatchedSurfaces surfaces;
   const auto correspondences =
       map.match(query, pose, kReachVoxels * settings.voxel_size, range_noise, 0, surfaces).all;
-  if (static_cast<int>(correspondences.size()) < kMinMatches) return result;
+  if (std::ssize(correspondences) < settings.min_matches) return result;
 
   const double scale = robust_scale(correspondences, pose, kKernel);
   const NormalEquations<6> equations = normal_equations(correspondences, pose, scale);
@@ -102,7 +99,7 @@ LoopVerification judge(const Features& query, LocalMap& map, const Pose& pose, d
     result.verdict = Verdict::high_rmse;
   } else if (!is_plausible(pose, settings)) {
     result.verdict = Verdict::implausible;
-  } else if (localizability(correspondences, pose, scale, kMinStrength).degenerate()) {
+  } else if (localizability(correspondences, pose, scale, settings.min_strength).degenerate()) {
     result.verdict = Verdict::degenerate;
   } else {
     result.verdict = Verdict::accepted;
@@ -131,7 +128,7 @@ LoopVerification verify_loop(std::span<const PlacedKeyFrame> query,
                              std::span<const PlacedKeyFrame> match,
                              std::span<const Pose> guesses_T_match_query, double range_noise,
                              const VerifierSettings& settings) {
-  LocalMap map(settings.voxel_size, settings.levels, kPlanarity);
+  LocalMap map(settings.voxel_size, settings.levels, settings.planarity);
   map.insert(merge(match), Pose::Identity());
   const Features source = voxel_filter(merge(query), 2.0 * settings.voxel_size);
 

@@ -11,8 +11,6 @@ namespace {
 // Of a quick verification.
 constexpr int kQuickNeighbours = 2;
 constexpr int kQuickLevels = 1;
-// Between two maps there is no pose graph to contradict a loop, so more must agree: its overlap.
-constexpr double kJoinOverlap = 0.75;
 
 VerifierSettings settings_for(Effort effort, VerifierSettings settings) {
   if (effort == Effort::full) return settings;
@@ -94,7 +92,7 @@ LoopVerification verify_candidate(const LoopCandidate& candidate, Effort effort,
                   placed_round(candidate.match, settings.neighbours, settings.neighbours, drive),
                   guesses_for(candidate, expected, effort), range_noise, settings);
   if (result.verdict != Verdict::accepted) return result;
-  if (joins && result.overlap < kJoinOverlap) result.verdict = Verdict::low_overlap;
+  if (joins && result.overlap < settings.min_join_overlap) result.verdict = Verdict::low_overlap;
   if (must_agree && inconsistency(result.T_match_query, expected, path_length, settings) >
                         settings.consistency_sigmas)
     result.verdict = Verdict::inconsistent;

@@ -16,6 +16,7 @@
 namespace lego_loam_sc {
 namespace {
 
+// Narrow: the guess is the odometry's.
 constexpr RobustKernel kKernel{.factor = 2.0, .min_scale = 1.0, .max_scale = 20.0};
 // Lower limit of the spacing of the matched points, as a share of the setting.
 constexpr double kMinSpacing = 0.125;

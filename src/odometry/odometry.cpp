@@ -12,6 +12,7 @@
 namespace lego_loam_sc {
 namespace {
 
+// Not below two sigmas: lines and planes through single points are as noisy as the points.
 constexpr RobustKernel kKernel{.factor = 2.0, .min_scale = 2.0, .max_scale = 50.0};
 
 // Association and solve are repeated until the pose moves by less: 2 mm or 2 mrad. The result is

@@ -124,10 +124,10 @@ void mark_ground(const RangeImage& image, const SensorModel& sensor, double sens
 
 std::optional<double> estimate_sensor_height(const RangeImage& image, const SensorModel& sensor,
                                              const SegmentationSettings& settings) {
-  constexpr float kRadius = 15.0f;  // m round the vehicle
-  constexpr float kBin = 0.1f;      // m
+  constexpr float kRadius = 15.0f;  // m round the vehicle, where the ground is dense and level
+  constexpr float kBin = 0.1f;      // m; a kerb apart
   constexpr int kBins = 100;        // down to 10 m below the sensor
-  constexpr int kMinPoints = 100;   // in the fullest bin
+  constexpr int kMinPoints = 100;   // in the fullest bin; fewer may be roofs and hedges
   const auto max_tangent = static_cast<float>(std::tan(radians(settings.ground_slope_deg)));
   const GroundRows rows(sensor, settings);
 

@@ -16,13 +16,18 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kRadius = 15.0;  // m round the sensor
+// m round the sensor, where the ground is dense and nearly a plane.
+constexpr double kRadius = 15.0;
+// Share of the points on the ground, at least. Of kMaxPoints that many are plenty, and of the
+// planes through three points (RANSAC) every thousandth is then the ground.
+constexpr double kMinSupport = 0.1;
 constexpr std::size_t kMaxPoints = 3000;
-constexpr int kTrials = 2000;            // RANSAC, planes through three points
-constexpr double kInlierDistance = 0.1;  // m
-constexpr double kBehindDistance = 0.4;  // m below the ground, where no surface can be seen
+constexpr int kTrials = 2000;
+// m; roughness of the ground, and a depth below it where no surface can be seen but for strays.
+constexpr double kInlierDistance = 0.1;
+constexpr double kBehindDistance = 0.4;
 constexpr double kMaxShareBehind = 0.03;
-constexpr double kMinSupport = 0.1;  // share of the points on the ground
+// A smaller tilt may be the road's, a plane that is steeper is a wall.
 constexpr double kMinTiltDeg = 5.0;
 constexpr double kMaxTiltDeg = 60.0;
 // A tilted plane needs this many times the support of the level one, one above the sensor this many

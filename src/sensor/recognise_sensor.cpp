@@ -17,9 +17,12 @@
 namespace lego_loam_sc {
 namespace {
 
-// By chance 30 % of the points lie within this share of the spacing to a beam.
+// Beams fit when kFitShare of the points lie within kNearShare of the spacing to one; by chance 30
+// % do.
 constexpr double kNearShare = 0.15;
 constexpr double kFitShare = 0.8;
+// Outside the outermost beams by more than units of one model differ. KITTI's scans have
+// kStrayShare of their points there at most; with kMisfitShare a scan is another sensor's.
 constexpr double kFarDeg = 2.0;
 constexpr double kStrayShare = 0.05;
 constexpr double kMisfitShare = 0.2;

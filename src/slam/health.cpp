@@ -9,37 +9,20 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-constexpr std::array<VitalLimits, kVitals> kLimits = {{
-    // Share of the sensor's beams that brought a point. Under an open sky it is near one half, and
-    // two thirds of the sky side of a covered lens leave a tenth.
-    {"points", "share", 0.10, 0.02, true},
-    // A pose has six unknowns: a hundred features for each average the noise to a tenth, with
-    // twenty single wrong ones show.
-    {"features", "", 600, 120, true},
-    // Share of the matched points that lie on a known surface. Default of mapping.min_matched_share
-    // is the error level: there a match is refused.
-    {"inliers", "share", 0.4, 0.3, true},
-    // In sigmas of the sensor's range. Surfaces are no planes and sweeps no snapshots, which costs
-    // two; at ten the points lie beside the surfaces.
-    {"residual", "sigma", 5, 10, false},
-    // Directions of translation and rotation that the scan does not hold: one, as along a tunnel,
-    // is carried over by the prediction, with more the pose floats.
-    {"degeneracy", "directions", 1, 2, false},
-    // Metres between the predicted and the found position. Within a turn of 0.1 s three times
-    // gravity makes 0.3 m; at 1 m the search may end in the wrong place.
-    {"prediction", "m", 0.3, 1, false},
-    // Seconds behind a live sensor: one turn waits, or ten do and a driver begins to drop them.
-    {"delay", "s", 0.1, 1, false},
-}};
-
 double share(double part, double whole) {
   return whole > 0.0 ? part / whole : kNone;
 }
 
 }  // namespace
 
-const std::array<VitalLimits, kVitals>& vital_limits() {
-  return kLimits;
+VitalLimits limits_of(const HealthSettings& s) {
+  return {{{"points", "share", s.points_warning, s.points_error, true},
+           {"features", "", s.features_warning, s.features_error, true},
+           {"inliers", "share", s.inliers_warning, s.inliers_error, true},
+           {"residual", "sigma", s.residual_warning, s.residual_error, false},
+           {"degeneracy", "directions", s.degeneracy_warning, s.degeneracy_error, false},
+           {"prediction", "m", s.prediction_warning, s.prediction_error, false},
+           {"delay", "s", s.delay_warning, s.delay_error, false}}};
 }
 
 Vitals vitals_of(const ScanReport& r, const SensorModel& sensor, double delay_s) {
@@ -59,13 +42,12 @@ Vitals vitals_of(const ScanReport& r, const SensorModel& sensor, double delay_s)
   return values;
 }
 
-HealthLevel level_of(Vital vital, double value) {
-  const VitalLimits& limits = kLimits[static_cast<std::size_t>(vital)];
+HealthLevel level_of(double value, const VitalLimit& limit) {
   const auto reached = [&](double level) {
-    return limits.low_is_bad ? value < level : value >= level;
+    return limit.low_is_bad ? value < level : value >= level;
   };
-  if (reached(limits.error)) return HealthLevel::error;
-  return reached(limits.warning) ? HealthLevel::warning : HealthLevel::ok;
+  if (reached(limit.error)) return HealthLevel::error;
+  return reached(limit.warning) ? HealthLevel::warning : HealthLevel::ok;
 }
 
 }  // namespace lego_loam_sc

@@ -7,11 +7,11 @@
 
 #include "core/sensor_model.hpp"
 #include "slam/report.hpp"
+#include "slam/settings.hpp"
 
 namespace lego_loam_sc {
 
-/// What an operator watches. The levels hold for every sensor and place, health.cpp says why they
-/// are where they are.
+/// What an operator watches. HealthSettings says why the levels are where they are.
 enum class Vital { points, features, inliers, residual, degeneracy, prediction, delay };
 constexpr std::size_t kVitals = 7;
 
@@ -27,7 +27,7 @@ constexpr std::string_view to_string(HealthLevel level) {
 }
 
 /// Where a vital begins to be bad.
-struct VitalLimits {
+struct VitalLimit {
   std::string_view name;  ///< as in scans.csv and summary.json
   std::string_view unit;  ///< of the levels; empty for counts
   double warning;         ///< from here on, downwards when `low_is_bad`
@@ -35,8 +35,9 @@ struct VitalLimits {
   bool low_is_bad;
 };
 
-/// The limits of each vital, in their order.
-const std::array<VitalLimits, kVitals>& vital_limits();
+/// The limit of each vital, in their order.
+using VitalLimits = std::array<VitalLimit, kVitals>;
+VitalLimits limits_of(const HealthSettings& settings);
 
 /// The values of a scan in the units of the limits; NaN where the scan has none, as the first has
 /// no residual.
@@ -46,6 +47,6 @@ using Vitals = std::array<double, kVitals>;
 Vitals vitals_of(const ScanReport& report, const SensorModel& sensor, double delay_s);
 
 /// NaN is ok.
-HealthLevel level_of(Vital vital, double value);
+HealthLevel level_of(double value, const VitalLimit& limit);
 
 }  // namespace lego_loam_sc

@@ -36,7 +36,7 @@ class RangeCheck {
 std::optional<std::string> validate(const Settings& settings) {
   std::optional<std::string> fault;
   Settings::groups(settings, [&](const char* name, const auto& group) {
-    std::remove_cvref_t<decltype(group)>::fields(group, RangeCheck(name, fault));
+    visit_settings(group, RangeCheck(name, fault));
   });
   return fault;
 }

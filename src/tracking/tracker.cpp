@@ -15,8 +15,6 @@
 namespace lego_loam_sc {
 namespace {
 
-// Scans with fewer points than this are not worth matching.
-constexpr std::size_t kMinPoints = 100;
 // Maximum number of times the first two scans are reprocessed.
 constexpr int kMaxReprocessings = 2;
 // Two scans with sweeps of different length may have reference times out of order, s.
@@ -47,6 +45,7 @@ Tracker::Tracker(const SensorModel& sensor, const TrackerSettings& settings,
       odometry_(settings.odometry, sensor.range_noise),
       mapper_(settings.mapping, sensor.range_noise, row_spacing(sensor)),
       map_updater_(settings.mapping.radius),
+      monitor_(settings.tracking),
       witness_(row_spacing(sensor)) {}
 
 TrackedScan Tracker::track(const Scan& scan) {
@@ -187,7 +186,7 @@ Tracker::Step Tracker::begin_step(const FrontEnd& front_end, const ScanTime& tim
       step.first ? calibration_.sensor.period
                  : std::max(seconds(reference_ns - motion_.previous.reference_ns), kShortestStep);
   step.stamp_age = seconds(time.time_ns - reference_ns);
-  step.enough_points = front_end.image.size() >= kMinPoints;
+  step.enough_points = std::ssize(front_end.image.points) >= settings_.tracking.min_points;
   monitor_.note_gap(step.jump_s, step.seconds);
   // The map begins at the first scan's stamp. Motion at the first stamp is known only after
   // reprocessing.

@@ -4,13 +4,10 @@
 namespace lego_loam_sc {
 namespace {
 
-// s; after a longer gap the sensor may be anywhere.
-constexpr double kLongestGap = 1.0;
 // Outliers match anywhere; in a wrong place both shares are low. In the right place one of them may
 // be, where the map is young or the ground rough.
 constexpr double kAgreement = 0.85;  // of the matched points
 constexpr double kConfirmed = 0.5;   // of all points
-constexpr int kPatience = 10;        // lost scans before a new map begins
 
 bool confirms(const MapMatch& match) {
   return match.matched && (match.inliers >= kAgreement * match.matches ||
@@ -20,7 +17,7 @@ bool confirms(const MapMatch& match) {
 }  // namespace
 
 void TrackingMonitor::note_gap(double jump_s, double seconds) {
-  after_gap_ |= jump_s != 0.0 || seconds > kLongestGap;
+  after_gap_ |= jump_s != 0.0 || seconds > settings_.max_gap;
 }
 
 // For a few scans odometry alone may tell the place, as long as the map does not contradict it.
@@ -34,7 +31,7 @@ bool TrackingMonitor::place_is_known(bool odometry_solved, const MapMatch& match
 }
 
 bool TrackingMonitor::should_start_new_map() const {
-  return lost_scans_ == kPatience;
+  return lost_scans_ == settings_.patience;
 }
 
 }  // namespace lego_loam_sc

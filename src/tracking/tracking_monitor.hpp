@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mapping/mapper.hpp"
+#include "tracking/settings.hpp"
 
 namespace lego_loam_sc {
 
@@ -9,6 +10,8 @@ namespace lego_loam_sc {
 /// one; after a gap, or when odometry fails, only the map does.
 class TrackingMonitor {
  public:
+  explicit TrackingMonitor(const TrackingSettings& settings) : settings_(settings) {}
+
   /// Before a scan: the clock has jumped by `jump_s`, the last scan that was matched is `seconds`
   /// old.
   void note_gap(double jump_s, double seconds);
@@ -16,10 +19,11 @@ class TrackingMonitor {
   /// Whether the odometry and the map together tell the place of a scan.
   bool place_is_known(bool odometry_solved, const MapMatch& match);
 
-  /// The place has been unknown for ten scans in a row: the map does not hold it.
+  /// The place has been unknown for TrackingSettings::patience scans in a row: the map does not
+  /// hold it.
   bool should_start_new_map() const;
 
-  void clear() { *this = {}; }
+  void clear() { *this = TrackingMonitor(settings_); }
 
   /// See core/state_archive.hpp.
   template <class Archive>
@@ -28,6 +32,7 @@ class TrackingMonitor {
   }
 
  private:
+  TrackingSettings settings_;
   bool after_gap_ = false;  // only the map can tell the place
   int lost_scans_ = 0;      // in a row, without those of too few points
 };

@@ -13,7 +13,7 @@ namespace {
 
 using namespace nb::literals;
 
-// Adds an attribute for each field that the group lists itself, so that new ones follow.
+// Adds an attribute for each setting that the group declares itself, so that new ones follow.
 template <class Group>
 class FieldBinder {
  public:
@@ -43,7 +43,7 @@ nb::class_<Group> bind_group(nb::module_& module, const char* name) {
   nb::class_<Group> type(module, name);
   type.def(nb::init<>());
   const Group example;
-  Group::fields(example, FieldBinder<Group>(type, example));
+  visit_settings(example, FieldBinder<Group>(type, example));
   return type;
 }
 
@@ -54,6 +54,7 @@ void bind_settings(nb::module_& module) {
   bind_group<FeatureSettings>(module, "FeatureSettings");
   bind_group<OdometrySettings>(module, "OdometrySettings");
   bind_group<MappingSettings>(module, "MappingSettings");
+  bind_group<TrackingSettings>(module, "TrackingSettings");
   bind_group<KeyFrameSettings>(module, "KeyFrameSettings");
   bind_group<ScanContextSettings>(module, "ScanContextSettings");
   bind_group<RadiusSearchSettings>(module, "RadiusSearchSettings");
@@ -64,6 +65,7 @@ void bind_settings(nb::module_& module) {
       .def_rw("verifier", &LoopSettings::verifier);
   bind_group<GraphSettings>(module, "GraphSettings");
   bind_group<OutputSettings>(module, "OutputSettings");
+  bind_group<HealthSettings>(module, "HealthSettings");
 
   nb::class_<Settings>(
       module, "Settings",
@@ -74,10 +76,12 @@ void bind_settings(nb::module_& module) {
       .def_rw("features", &Settings::features)
       .def_rw("odometry", &Settings::odometry)
       .def_rw("mapping", &Settings::mapping)
+      .def_rw("tracking", &Settings::tracking)
       .def_rw("key_frames", &Settings::key_frames)
       .def_rw("loop", &Settings::loop)
       .def_rw("graph", &Settings::graph)
       .def_rw("output", &Settings::output)
+      .def_rw("health", &Settings::health)
       .def("__str__", [](const Settings& settings) { return to_yaml(settings); });
   module.def(
       "load_settings",
