@@ -91,6 +91,8 @@ RunSummary summarise(const Slam& slam, const Trajectory& trajectory, std::size_t
       {"sensor_height_m", slam.sensor_height()},
       {"mount_roll_deg", degrees(mounting[0]) + 0.0},  // no minus before a zero
       {"mount_pitch_deg", degrees(mounting[1]) + 0.0},
+      {"elevation_bias_deg", slam.elevation_bias_deg()},
+      {"elevation_bias_sigma_deg", slam.elevation_bias_sigma_deg()},
       {"scans", counts.scans},
       {"status", counts.statuses},
       {"stamp_jumps", counts.stamp_jumps},

@@ -191,11 +191,6 @@ MapMatch Mapper::refine(const Features& features, const ScanGuess& guess) {
       sweep_normal_equations(correspondences, pose, Vector6::Zero(), scale);
   prior.add_to(solution, pose);
   velocity_prior.add_to(solution, Sweep{pose}, twist);
-  // With a guessed pose the residuals say nothing about the sensor.
-  if (settings_.elevation_bias && !match.localizability.degenerate()) {
-    elevation_bias_.add(correspondences, pose, scale, solution);
-    row_bias_.add(correspondences, pose, scale);
-  }
   match.matched = true;
   match.T_map_lidar = normalized(pose);
   match.twist = twist;

@@ -6,8 +6,6 @@
 #include "core/pose.hpp"
 #include "features/features.hpp"
 #include "map/local_map.hpp"
-#include "mapping/elevation_bias.hpp"
-#include "mapping/row_bias.hpp"
 #include "mapping/settings.hpp"
 #include "registration/localizability.hpp"
 
@@ -47,12 +45,6 @@ class Mapper {
   /// the pose; its prior is the motion since the previous scan.
   MapMatch refine(const Features& features, const ScanGuess& guess);
 
-  /// rad; common error of all elevation angles, see ElevationBias. 0 when its estimation is off.
-  double elevation_bias() const { return elevation_bias_.value(); }
-
-  /// rad; error of each row in addition to the common one, see RowBias; empty while unknown.
-  const std::vector<double>& row_bias() const { return row_bias_.values(); }
-
   /// Adds features that are already de-skewed.
   void insert(const Features& deskewed, const Pose& T_map_lidar);
 
@@ -66,7 +58,7 @@ class Mapper {
   /// See core/state_archive.hpp.
   template <class Archive>
   void state(Archive& archive) {
-    archive(map_, elevation_bias_, row_bias_, spacing_, last_insertion_, last_eviction_);
+    archive(map_, spacing_, last_insertion_, last_eviction_);
   }
 
  private:
@@ -75,8 +67,6 @@ class Mapper {
   MappingSettings settings_;
   double range_noise_;
   LocalMap map_;
-  ElevationBias elevation_bias_;
-  RowBias row_bias_;
   double spacing_;  // m, voxel size of the filter over the matched points
   std::optional<Eigen::Vector3d> last_insertion_;
   Eigen::Vector3d last_eviction_ = Eigen::Vector3d::Zero();

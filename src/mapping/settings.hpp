@@ -58,9 +58,9 @@ struct MappingSettings {
           "smallest share of the points that must find a surface");
     visit("min_strength", s.min_strength, 0.0, 1000.0,
           "constraints that must hold each direction, else it is degenerate and keeps the guess");
-    visit(
-        "elevation_bias", s.elevation_bias,
-        "find and correct errors of the elevation angles on the way: of all beams and of each row");
+    visit("elevation_bias", s.elevation_bias,
+          "correct an error that the elevation angles of all beams have in common once the ground "
+          "of the drive has proved it");
   }
 };
 

@@ -94,6 +94,9 @@ TrackedScan Tracker::track_once(const Scan& scan, int index) {
   const Placement placement = place(front_end.features, motion, step, index);  // 2.3 (4)
   if (placement.new_fragment) begin_fragment();
   const Advance moved = advance(front_end, motion, step, placement);
+  // Holds from the next scan on.
+  if (settings_.mapping.elevation_bias && placement.placed())
+    calibration_.observe_ground(front_end, motion_.travelled);
 
   timer.start(Stage::loops);
   const Pose& T_map_lidar = moved.current.T_map_lidar;
@@ -108,7 +111,7 @@ TrackedScan Tracker::track_once(const Scan& scan, int index) {
   tracked.motion = motion;
   tracked.mapped = placement.mapped;
   tracked.match = placement.found;
-  tracked.elevation_bias_deg = placement.elevation_bias_deg;
+  tracked.elevation_bias_deg = calibration_.elevation_bias_deg();
   tracked.prediction_m = moved.prediction_m;
   tracked.T_odom_lidar =
       calibration_.to_lidar_frame(moved.current.T_odom_lidar * moved.T_reference_stamp);
@@ -170,9 +173,6 @@ Tracker::Placement Tracker::place(const Features& features, const Motion& motion
     placement.mapped = index % settings_.mapping.every == 0;
     if (placement.mapped) {
       placement.found = placement.match = match_with_map(features, motion, step.seconds);
-      // Holds from the next scan on.
-      if (calibration_.correct_elevations(mapper_.elevation_bias(), mapper_.row_bias()))
-        placement.elevation_bias_deg = degrees(mapper_.elevation_bias());
       if (!placement.match.matched)
         placement.status = Status::odometry_only;
       else if (placement.match.localizability.degenerate())

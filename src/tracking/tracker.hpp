@@ -63,11 +63,10 @@ class Tracker {
   // Where a scan is, and what says so.
   struct Placement {
     Status status = Status::ok;
-    bool mapped = false;              // the scan's turn to be matched and added
-    MapMatch found;                   // as the map gave it
-    MapMatch match;                   // as believed: without `found`, where that is refused
-    double elevation_bias_deg = 0.0;  // found so far
-    bool new_fragment = false;        // tracking was lost: the scan begins a new map
+    bool mapped = false;        // the scan's turn to be matched and added
+    MapMatch found;             // as the map gave it
+    MapMatch match;             // as believed: without `found`, where that is refused
+    bool new_fragment = false;  // tracking was lost: the scan begins a new map
 
     bool placed() const { return is_placed(status) || new_fragment; }
   };
