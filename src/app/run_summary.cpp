@@ -59,6 +59,23 @@ PoseFile to_lidar_frame(PoseFile truth, const std::optional<Pose>& T_camera_lida
   return truth;
 }
 
+// A line for each correction of the sensor that was found and is in force.
+std::string corrections_of(const Calibration& calibration) {
+  const SensorModel& sensor = calibration.sensor;
+  std::string text;
+  if (sensor.tilted() && !calibration.nominal.tilted())
+    text += "tilt of the sensor, found in the first scan: roll " +
+            to_fixed(sensor.mount_roll_deg, 1) + ", pitch " + to_fixed(sensor.mount_pitch_deg, 1) +
+            " deg\n";
+  if (calibration.elevation_bias_deg() != 0.0)
+    text += "elevation angles corrected by " + to_fixed(calibration.elevation_bias_deg(), 3) +
+            " +- " + to_fixed(calibration.elevation_bias_sigma_deg(), 3) +
+            " deg, found on the way: elevation_correction_deg: " +
+            to_fixed(sensor.elevation_correction_deg, 3) +
+            " in the sensor's file corrects the drive from its start\n";
+  return text;
+}
+
 // A line for each exceptional event of the run.
 std::string notes_of(const RunCounts& counts, int maps) {
   std::string text;
@@ -91,8 +108,8 @@ RunSummary summarise(const Slam& slam, const Trajectory& trajectory, std::size_t
       {"sensor_height_m", slam.sensor_height()},
       {"mount_roll_deg", degrees(mounting[0]) + 0.0},  // no minus before a zero
       {"mount_pitch_deg", degrees(mounting[1]) + 0.0},
-      {"elevation_bias_deg", slam.elevation_bias_deg()},
-      {"elevation_bias_sigma_deg", slam.elevation_bias_sigma_deg()},
+      {"elevation_bias_deg", slam.calibration().elevation_bias_deg()},
+      {"elevation_bias_sigma_deg", slam.calibration().elevation_bias_sigma_deg()},
       {"scans", counts.scans},
       {"status", counts.statuses},
       {"stamp_jumps", counts.stamp_jumps},
@@ -121,7 +138,7 @@ RunSummary summarise(const Slam& slam, const Trajectory& trajectory, std::size_t
                 counts.scans, length, slam.key_frames().size(), counts.accepted_loops, map_points,
                 facts.wall_seconds, resources.cpu_seconds, milliseconds_per_scan,
                 resources.peak_megabytes);
-  return {std::move(json), text + notes_of(counts, slam.maps()) + health.text()};
+  return {std::move(json), text + corrections_of(slam.calibration()) + notes_of(counts, slam.maps()) + health.text()};
 }
 
 void add_errors(const NamedTruth& truth, const DatasetFacts& dataset, const Trajectory& odometry,

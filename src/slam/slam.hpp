@@ -63,14 +63,8 @@ class Slam {
   /// unknown.
   double sensor_height() const { return tracker_.calibration().height; }
 
-  /// Error of the elevation angles that the drive has proved and that is corrected, and its one
-  /// sigma, deg; 0 while there is none.
-  /// @{
-  double elevation_bias_deg() const { return tracker_.calibration().elevation_bias_deg(); }
-  double elevation_bias_sigma_deg() const {
-    return tracker_.calibration().elevation_bias_sigma_deg();
-  }
-  /// @}
+  /// The sensor as its model states it, and with what the drive has shown.
+  const Calibration& calibration() const { return tracker_.calibration(); }
 
   /// Turns the LiDAR's axes level: by the mounting angles of the sensor model or as estimated.
   Eigen::Matrix3d R_level_lidar() const { return R_base_lidar(tracker_.calibration().sensor); }

@@ -26,7 +26,7 @@ class Calibration {
   /// is left alone: it does not spin about the vertical axis.
   void observe_ground(const FrontEnd& front_end, double travelled);
 
-  /// The correction in force and its one sigma, deg.
+  /// The correction in force, 0 when none has proved itself, and one sigma of what is known, deg.
   /// @{
   double elevation_bias_deg() const { return degrees(elevation_bias_.value()); }
   double elevation_bias_sigma_deg() const { return degrees(elevation_bias_.sigma()); }
