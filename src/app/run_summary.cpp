@@ -64,7 +64,7 @@ std::string corrections_of(const Calibration& calibration) {
   const SensorModel& sensor = calibration.sensor;
   std::string text;
   if (sensor.tilted() && !calibration.nominal.tilted())
-    text += "tilt of the sensor, found in the first scan: roll " +
+    text += "tilt of the sensor, found in the first two scans: roll " +
             to_fixed(sensor.mount_roll_deg, 1) + ", pitch " + to_fixed(sensor.mount_pitch_deg, 1) +
             " deg\n";
   if (calibration.elevation_bias_deg() != 0.0)

@@ -21,6 +21,12 @@ class Calibration {
   /// Takes what the front end found of the mounting.
   void set_mounting(const Mounting& mounting);
 
+  /// Whether the tilt that is in use was estimated.
+  bool tilt_is_estimated() const { return sensor.tilted() && !nominal.tilted(); }
+
+  /// Whether a scan by itself shows the tilt that is in use, within a few degrees.
+  bool shows_tilt(const Scan& scan) const;
+
   /// Takes the ground of a scan, `travelled` m from the start, as evidence of a common error of the
   /// elevation angles (see cone_of_ground), which is corrected once it is proved. A tilted sensor
   /// is left alone: it does not spin about the vertical axis.

@@ -51,6 +51,12 @@ TrackedScan Tracker::track(const Scan& scan) {
 // are motion compensated do not need it.
 TrackedScan Tracker::reprocess_first_scans(const FirstScan& first, const Scan& second,
                                            TrackedScan tracked) {
+  const int index = tracked.index;
+  // A tilt counts only when both show it.
+  if (calibration_.tilt_is_estimated() && !calibration_.shows_tilt(second)) {
+    find_tilt_ = false;
+    tracked = restart(first, second, index, Vector6::Zero());
+  }
   const SensorModel& sensor = calibration_.nominal;
   if (sensor.motion_compensated) return tracked;
   Vector6 known = Vector6::Zero();
@@ -59,15 +65,23 @@ TrackedScan Tracker::reprocess_first_scans(const FirstScan& first, const Scan& s
     const Vector6 motion = twist * sensor.period;
     if (!is_placed(tracked.status) || (motion - known).head<3>().norm() < sensor.range_noise) break;
     known = motion;
-    const int index = tracked.index;
-    *this = Tracker(calibration_.nominal, settings_, key_frames_);
-    motion_.twist = twist;
-    motion_.speed = twist.head<3>().norm();
-    auto first_again = std::make_shared<TrackedScan>(track_once(first.scan, first.index));
-    tracked = track_once(second, index);
-    tracked.first_again = std::move(first_again);
-    progress_.scans = index + 1;
+    tracked = restart(first, second, index, twist);
   }
+  return tracked;
+}
+
+// Tracks the first two scans as if there had been none, knowing their motion.
+TrackedScan Tracker::restart(const FirstScan& first, const Scan& second, int index,
+                             const Vector6& twist) {
+  const bool find_tilt = find_tilt_;
+  *this = Tracker(calibration_.nominal, settings_, key_frames_);
+  find_tilt_ = find_tilt;
+  motion_.twist = twist;
+  motion_.speed = twist.head<3>().norm();
+  auto first_again = std::make_shared<TrackedScan>(track_once(first.scan, first.index));
+  TrackedScan tracked = track_once(second, index);
+  tracked.first_again = std::move(first_again);
+  progress_.scans = index + 1;
   return tracked;
 }
 
@@ -125,7 +139,8 @@ TrackedScan Tracker::track_once(const Scan& scan, int index) {
 // The first scans also show how the sensor is mounted.
 FrontEnd Tracker::look_at(const Scan& scan, std::int64_t time_ns) {
   FrontEnd front_end =
-      run_front_end(scan, calibration_.sensor, calibration_.height, settings_, mapper_.empty());
+      run_front_end(scan, calibration_.sensor, calibration_.height, settings_,
+                    find_tilt_ && mapper_.empty());
   front_end.image.reference_ns += time_ns - scan.stamp_ns;
   calibration_.set_mounting(front_end.mounting);
   return front_end;

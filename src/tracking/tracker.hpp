@@ -101,6 +101,7 @@ class Tracker {
   };
 
   TrackedScan track_once(const Scan& scan, int index);
+  TrackedScan restart(const FirstScan& first, const Scan& second, int index, const Vector6& twist);
   TrackedScan reprocess_first_scans(const FirstScan& first, const Scan& second,
                                     TrackedScan tracked);
   FrontEnd look_at(const Scan& scan, std::int64_t time_ns);
@@ -127,6 +128,7 @@ class Tracker {
   LastKeyFrame last_key_frame_;
   Progress progress_;
   std::optional<FirstScan> first_scan_;  // until its motion is known
+  bool find_tilt_ = true;  // false when the second scan has contradicted the first; of no use later
 };
 
 }  // namespace lego_loam_sc
