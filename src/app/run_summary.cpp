@@ -138,7 +138,8 @@ RunSummary summarise(const Slam& slam, const Trajectory& trajectory, std::size_t
                 counts.scans, length, slam.key_frames().size(), counts.accepted_loops, map_points,
                 facts.wall_seconds, resources.cpu_seconds, milliseconds_per_scan,
                 resources.peak_megabytes);
-  return {std::move(json), text + corrections_of(slam.calibration()) + notes_of(counts, slam.maps()) + health.text()};
+  return {std::move(json), text + corrections_of(slam.calibration()) +
+                               notes_of(counts, slam.maps()) + health.text()};
 }
 
 void add_errors(const NamedTruth& truth, const DatasetFacts& dataset, const Trajectory& odometry,

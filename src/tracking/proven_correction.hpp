@@ -3,12 +3,12 @@
 
 namespace lego_loam_sc {
 
-/// A correction that is applied only while it proves itself. Each measurement is of the whole error,
-/// whatever has been applied by then. Measurements are averaged in blocks; the mean of the blocks so
-/// far is tried on each block that follows, which did not serve to find it: it gains what it lowers
-/// the square of that block by. It is applied when the mean gain exceeds its own uncertainty
-/// threefold and the correction exceeds what the measurements may be off by in common, and taken
-/// back when later blocks have used up that proof.
+/// A correction that is applied only while it proves itself. Each measurement is of the whole
+/// error, whatever has been applied by then. Measurements are averaged in blocks; the mean of the
+/// blocks so far is tried on each block that follows, which did not serve to find it: it gains what
+/// it lowers the square of that block by. It is applied when the mean gain exceeds its own
+/// uncertainty threefold and the correction exceeds what the measurements may be off by in common,
+/// and taken back when later blocks have used up that proof.
 class ProvenCorrection {
  public:
   /// `floor`: a smaller correction is never applied.
