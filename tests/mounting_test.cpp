@@ -125,6 +125,15 @@ TEST(Mounting, ATiltedSensorKeepsItsTrajectoryInALevelMap) {
   }
 }
 
+TEST(Mounting, ATiltThatTheSecondScanContradictsIsNone) {
+  const SensorModel tilted = mounted("vlp16", 0.0, 15.0), upright = load_sensor("vlp16");
+  Slam slam(untold(tilted), {});
+  slam.process(take_scan(hall(), tilted, pose_of_lidar(base_at(0.0), tilted)));
+  EXPECT_TRUE(slam.calibration().tilt_is_estimated());
+  slam.process(take_scan(hall(), upright, base_at(0.0), {.stamp_ns = 100'000'000}));
+  EXPECT_FALSE(slam.calibration().sensor.tilted());
+}
+
 TEST(Mounting, TheFrontEndLevelsASensorAndFindsItsHeight) {
   const SensorModel truth = mounted("vlp16", 0.0, 15.0);
   const Scan scan = take_scan(hall(), truth, pose_of_lidar(base_at(0.0), truth));

@@ -60,6 +60,23 @@ PoseFile to_lidar_frame(PoseFile truth, const std::optional<Pose>& T_camera_lida
   return truth;
 }
 
+// A line for each correction of the sensor that was found and is in force.
+std::string corrections_of(const Calibration& calibration) {
+  const SensorModel& sensor = calibration.sensor;
+  std::string text;
+  if (sensor.tilted() && !calibration.nominal.tilted())
+    text += "tilt of the sensor, found in the first two scans: roll " +
+            to_fixed(sensor.mount_roll_deg, 1) + ", pitch " + to_fixed(sensor.mount_pitch_deg, 1) +
+            " deg\n";
+  if (calibration.elevation_bias_deg() != 0.0)
+    text += "elevation angles corrected by " + to_fixed(calibration.elevation_bias_deg(), 3) +
+            " +- " + to_fixed(calibration.elevation_bias_sigma_deg(), 3) +
+            " deg, found on the way: elevation_correction_deg: " +
+            to_fixed(sensor.elevation_correction_deg, 3) +
+            " in the sensor's file corrects the drive from its start\n";
+  return text;
+}
+
 // A line for each exceptional event of the run.
 std::string notes_of(const RunCounts& counts, int maps) {
   std::string text;
@@ -103,6 +120,8 @@ RunSummary summarise(const Slam& slam, const Trajectory& trajectory, std::size_t
       {"sensor_height_m", slam.sensor_height()},
       {"mount_roll_deg", degrees(mounting[0]) + 0.0},  // no minus before a zero
       {"mount_pitch_deg", degrees(mounting[1]) + 0.0},
+      {"elevation_bias_deg", slam.calibration().elevation_bias_deg()},
+      {"elevation_bias_sigma_deg", slam.calibration().elevation_bias_sigma_deg()},
       {"scans", counts.scans},
       {"verdict", to_string(verdict.trust)},
       {"verdict_reasons", to_json(verdict.reasons)},
@@ -137,7 +156,8 @@ RunSummary summarise(const Slam& slam, const Trajectory& trajectory, std::size_t
                 resources.peak_megabytes);
   std::string findings;
   for (const std::string& sentence : input_sentences(slam)) findings += sentence + "\n";
-  return {std::move(json), text + notes_of(counts, slam.maps()) + health.text() + findings,
+  return {std::move(json), text + corrections_of(slam.calibration()) + notes_of(counts, slam.maps()) +
+                               health.text() + findings,
           describe(verdict)};
 }
 

@@ -22,8 +22,6 @@ struct SensorModel {
   bool motion_compensated = false;    ///< points are already de-skewed to the stamp of the scan
   bool times_from_azimuth = false;    ///< raw sweeps without times: computed from the azimuth
   double elevation_correction_deg = 0.0;  ///< added to the elevation angle of every point
-  /// Added in addition to the elevation angles of each row; empty: none.
-  std::vector<double> row_correction_deg;
   // Mounting; all zero: unknown, estimated from the scans. Points are processed in the levelled
   // frame, R_base_lidar = R_y(pitch) R_x(roll).
   double height = 0.0;  ///< m above the ground, 0 = unknown
@@ -32,10 +30,6 @@ struct SensorModel {
 
   /// Number of beams.
   int rows() const { return static_cast<int>(elevation_deg.size()); }
-  /// deg, of the points of `row`.
-  double elevation_correction_of(int row) const {
-    return elevation_correction_deg + (row_correction_deg.empty() ? 0.0 : row_correction_deg[row]);
-  }
   /// Whether the mounting is not level.
   bool tilted() const { return mount_roll_deg != 0.0 || mount_pitch_deg != 0.0; }
 };

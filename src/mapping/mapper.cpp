@@ -312,10 +312,6 @@ MapMatch Mapper::align(const Features& points, const ScanGuess& guess) {
   if (!match.localizability.degenerate())
     sweep_check_.add(r.correspondences.set(0), r.pose, r.scales[0], velocity_prior.mean(r.pose),
                      r.twist);
-  if (settings_.elevation_bias && !match.localizability.degenerate()) {
-    elevation_bias_.add(r.correspondences.set(0), r.pose, r.scales[0], solution);
-    row_bias_.add(r.correspondences.set(0), r.pose, r.scales[0]);
-  }
   match.matched = true;
   match.matches = static_cast<int>(r.correspondences.all.size());
   match.iterations = r.iterations;

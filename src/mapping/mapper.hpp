@@ -7,8 +7,6 @@
 #include "core/pose.hpp"
 #include "features/features.hpp"
 #include "map/local_map.hpp"
-#include "mapping/elevation_bias.hpp"
-#include "mapping/row_bias.hpp"
 #include "mapping/sweep_check.hpp"
 #include "mapping/settings.hpp"
 #include "mapping/sweep_priors.hpp"
@@ -55,12 +53,6 @@ class Mapper {
   /// match in which most of the scan agrees with the map.
   MapMatch search(const Features& features, const ScanGuess& guess, const Pose& T_map_previous);
 
-  /// rad; common error of all elevation angles, see ElevationBias. 0 when its estimation is off.
-  double elevation_bias() const { return elevation_bias_.value(); }
-
-  /// rad; error of each row in addition to the common one, see RowBias; empty while unknown.
-  const std::vector<double>& row_bias() const { return row_bias_.values(); }
-
   /// Whether the times of the points fit the motion.
   const SweepCheck& sweep_check() const { return sweep_check_; }
 
@@ -77,8 +69,7 @@ class Mapper {
   /// See core/state_archive.hpp.
   template <class Archive>
   void state(Archive& archive) {
-    archive(map_, elevation_bias_, row_bias_, sweep_check_, spacing_, last_insertion_,
-            last_eviction_);
+    archive(map_, sweep_check_, spacing_, last_insertion_, last_eviction_);
   }
 
  private:
@@ -102,8 +93,6 @@ class Mapper {
   MappingSettings settings_;
   double range_noise_;
   LocalMap map_;
-  ElevationBias elevation_bias_;
-  RowBias row_bias_;
   SweepCheck sweep_check_;
   double spacing_;  // m, voxel size of the filter over the matched points
   std::optional<Eigen::Vector3d> last_insertion_;

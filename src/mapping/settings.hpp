@@ -47,8 +47,8 @@ struct MappingSettings {
                        "sigmas; a direction in which the scan fits the map less clearly is "
                        "degenerate and keeps the prediction");
   LEGO_LOAM_SC_SETTING(bool, elevation_bias, true,
-                       "find and correct errors of the elevation angles on the way: of all beams "
-                       "and of each row");
+                       "correct an error that the elevation angles of all beams have in common once "
+                       "the ground of the drive has proved it");
 };
 
 }  // namespace lego_loam_sc

@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -34,6 +35,18 @@ constexpr double kMaxTiltDeg = 60.0;
 // times that of the best below.
 constexpr double kTiltedSupport = 1.5;
 constexpr double kAboveSupport = 5.0;
+// Patches that show how a surface is turned: three points about this far apart, m, at most a
+// share of 1 / kWidest of the columns and kLongest metres.
+constexpr double kPatch = 0.6;
+constexpr double kLongest = 3.0;
+constexpr int kWidest = 24;
+// Points of several walls make a plane as well, where the field of view ends: but of the patches on
+// a ground this share lie in it, within this angle.
+constexpr double kLyingShare = 0.5;
+constexpr double kLyingDeg = 20.0;
+// What else there is stands about as upright on the ground as on a level one, or more so.
+constexpr double kUprightDeg = 10.0;
+constexpr double kUprightShare = 0.8;
 
 // n.p = -height: `up` points from the plane to the sensor.
 struct Plane {
@@ -128,6 +141,62 @@ GroundPlanes find_ground_planes(const std::vector<Vector3d>& points) {
   return planes;
 }
 
+struct Patch {
+  Vector3d point;
+  Vector3d normal;
+};
+
+std::vector<Patch> patches_near(const RangeImage& image) {
+  std::vector<Patch> patches;
+  const double column_angle = 2.0 * 3.14159265358979323846 / image.columns;
+  const std::size_t stride = image.size() / kMaxPoints + 1;
+  for (int row = 0; row + 1 < image.rows; ++row)
+    for (std::size_t i = image.row_begin[row]; i < image.row_begin[row + 1]; i += stride) {
+      if (image.range[i] >= kRadius) continue;
+      const int step = static_cast<int>(std::ceil(kPatch / (image.range[i] * column_angle)));
+      const int column = image.column[i];
+      const std::int32_t beside =
+          image.pixel(row, (column + std::min(step, image.columns / kWidest)) % image.columns);
+      const std::int32_t above = image.pixel(row + 1, column);
+      if (beside < 0 || above < 0) continue;
+      const Vector3d point = image.points[i].cast<double>();
+      const Vector3d a = image.points[beside].cast<double>() - point;
+      const Vector3d b = image.points[above].cast<double>() - point;
+      if (a.norm() > kLongest || b.norm() > kLongest) continue;
+      patches.push_back({point, a.cross(b).normalized()});
+    }
+  return patches;
+}
+
+std::size_t count_upright(const std::vector<Patch>& patches, const Vector3d& up) {
+  const double most = std::sin(radians(kUprightDeg));
+  return std::count_if(patches.begin(), patches.end(), [&](const Patch& patch) {
+    return std::abs(patch.normal.dot(up)) < most;
+  });
+}
+
+bool lies_in(const std::vector<Patch>& patches, const Plane& plane) {
+  const double least = std::cos(radians(kLyingDeg));
+  std::size_t on = 0, lying = 0;
+  for (const Patch& patch : patches) {
+    if (std::abs(plane.up.dot(patch.point) + plane.height) >= kInlierDistance) continue;
+    ++on;
+    lying += std::abs(patch.normal.dot(plane.up)) > least;
+  }
+  return lying > 0 && static_cast<double>(lying) >= kLyingShare * static_cast<double>(on);
+}
+
+// The surfaces themselves must bear out what the points of a plane suggest.
+bool is_ground(const Plane& plane, const RangeImage& image) {
+  if (std::abs(plane.up.z()) < std::cos(radians(kMaxTiltDeg))) return false;
+  const std::vector<Patch> patches = patches_near(image);
+  const auto upright_of = [&](const Vector3d& up) {
+    return static_cast<double>(count_upright(patches, up));
+  };
+  return lies_in(patches, plane) &&
+         upright_of(plane.up) >= kUprightShare * upright_of(Vector3d::UnitZ());
+}
+
 std::optional<Plane> find_tilted_ground(const RangeImage& image) {
   const std::vector<Vector3d> points = points_near(image);
   if (points.size() < 100) return std::nullopt;
@@ -138,7 +207,8 @@ std::optional<Plane> find_tilted_ground(const RangeImage& image) {
   if (support_of(planes.above) > kAboveSupport * support_of(best)) best = planes.above;
   if (support_of(best) < kMinSupport * static_cast<double>(points.size())) return std::nullopt;
   best = refined(refined(best, points), points);
-  if (best.up.z() > std::cos(radians(kMinTiltDeg))) return std::nullopt;
+  if (best.up.z() > std::cos(radians(kMinTiltDeg)) || !is_ground(best, image))
+    return std::nullopt;
   return best;
 }
 

@@ -223,7 +223,7 @@ RangeImage project(const Scan& scan, const SensorModel& sensor) {
   std::vector<ElevationCorrection> correct;
   for (int r = 0; r < image.rows; ++r)
     correct.emplace_back(radians(sensor.elevation_deg[r]),
-                         radians(sensor.elevation_correction_of(r)));
+                         radians(sensor.elevation_correction_deg));
   const Eigen::Matrix3f R_level_lidar = R_base_lidar(sensor).cast<float>();
   const bool tilted = sensor.tilted();
   const bool intensities = !scan.intensity.empty();

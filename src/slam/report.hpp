@@ -34,7 +34,7 @@ struct ScanReport {
   double map_rmse = 0.0;  ///< m
   int degenerate_translations = 0, degenerate_rotations = 0;
   double least_translation_strength = 0.0, least_rotation_strength = 0.0;
-  double elevation_bias_deg = 0.0;  ///< found so far, corrected from the next scan on
+  double elevation_bias_deg = 0.0;  ///< correction of the elevation angles, from the next scan on
 
   int agreeing = 0, contradicting = 0;  ///< points, see Testimony
   double prediction_m = 0.0;  ///< from the predicted to the found position

@@ -63,6 +63,9 @@ class Slam {
   /// unknown.
   double sensor_height() const { return tracker_.calibration().height; }
 
+  /// The sensor as its model states it, and with what the drive has shown.
+  const Calibration& calibration() const { return tracker_.calibration(); }
+
   /// What the scans held that is no measurement of the surroundings, and whether the times of their
   /// points fit the motion.
   /// @{

@@ -38,7 +38,7 @@ struct TrackedScan {
   Motion motion;        // (3)
   bool mapped = false;  ///< the scan's turn to be matched with the map and added to it
   MapMatch match;       // (4), as found; nothing when not mapped or while the map is empty
-  double elevation_bias_deg = 0.0;  ///< found so far, corrected from the next scan on
+  double elevation_bias_deg = 0.0;  ///< correction of the elevation angles, from the next scan on
   double prediction_m = 0.0;        ///< from the predicted to the found position
   Testimony testimony;              ///< of points that did not serve to find the pose
 

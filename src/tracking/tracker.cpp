@@ -71,31 +71,22 @@ TrackedScan Tracker::track(const Scan& scan) {
 // the body of the vehicle, is new to the first one too.
 TrackedScan Tracker::reprocess_first_scans(const FirstScan& first, const Scan& second,
                                            TrackedScan tracked) {
+  const int index = tracked.index;
+  // A tilt counts only when both show it.
+  if (calibration_.tilt_is_estimated() && !calibration_.shows_tilt(second)) {
+    find_tilt_ = false;
+    tracked = restart(first, second, index, Vector6::Zero());
+  }
   const SensorModel& sensor = calibration_.nominal;
-  const auto track_again = [&](const Vector6& twist) {
-    const int index = tracked.index;
-    const std::uint64_t hash = progress_.last_scan.points_hash;
-    ScanCheck check = std::move(check_);
-    check.restart();
-    *this = Tracker(calibration_.nominal, settings_, key_frames_);
-    progress_.last_scan.points_hash = hash;
-    check_ = std::move(check);
-    motion_.twist = twist;
-    motion_.speed = twist.head<3>().norm();
-    motion_.known = !twist.isZero();
-    auto first_again = std::make_shared<TrackedScan>(track_once(first.scan, first.index));
-    tracked = track_once(second, index);
-    tracked.first_again = std::move(first_again);
-    progress_.scans = index + 1;
-  };
-  if (check_.has_learnt()) track_again(Vector6::Zero());
+  if (check_.has_learnt()) tracked = restart(first, second, index, Vector6::Zero());
   if (sensor.motion_compensated) return tracked;
   Vector6 known = Vector6::Zero();
   for (int k = 0; k < kMaxReprocessings; ++k) {
-    const Vector6 motion = motion_.twist * sensor.period;
+    const Vector6 twist = motion_.twist;
+    const Vector6 motion = twist * sensor.period;
     if (!is_placed(tracked.status) || (motion - known).head<3>().norm() < sensor.range_noise) break;
     known = motion;
-    track_again(Vector6(motion_.twist));
+    tracked = restart(first, second, index, twist);
   }
   return tracked;
 }
@@ -113,6 +104,27 @@ TrackedScan Tracker::repeat(const Scan& scan) {
   tracked.last_key_frame = progress_.last_key_frame.number;
   tracked.T_key_lidar = progress_.last_scan.T_key_lidar;
   tracked.fragment = progress_.fragment;
+  return tracked;
+}
+
+// Tracks the first two scans as if there had been none, knowing their motion.
+TrackedScan Tracker::restart(const FirstScan& first, const Scan& second, int index,
+                             const Vector6& twist) {
+  const bool find_tilt = find_tilt_;
+  const std::uint64_t hash = progress_.last_scan.points_hash;
+  ScanCheck check = std::move(check_);
+  check.restart();
+  *this = Tracker(calibration_.nominal, settings_, key_frames_);
+  find_tilt_ = find_tilt;
+  progress_.last_scan.points_hash = hash;
+  check_ = std::move(check);
+  motion_.twist = twist;
+  motion_.speed = twist.head<3>().norm();
+  motion_.known = !twist.isZero();
+  auto first_again = std::make_shared<TrackedScan>(track_once(first.scan, first.index));
+  TrackedScan tracked = track_once(second, index);
+  tracked.first_again = std::move(first_again);
+  progress_.scans = index + 1;
   return tracked;
 }
 
@@ -139,6 +151,9 @@ TrackedScan Tracker::track_once(const Scan& scan, int index) {
   const Placement placement = place(front_end.features, motion, step, index);  // 2.3 (4)
   if (placement.new_fragment) begin_fragment();
   const Advance moved = advance(front_end, motion, step, placement);
+  // Holds from the next scan on.
+  if (settings_.mapping.elevation_bias && placement.placed())
+    calibration_.observe_ground(front_end, motion_.travelled);
 
   timer.start(Stage::loops);
   const Pose& T_map_lidar = moved.current.T_map_lidar;
@@ -153,7 +168,7 @@ TrackedScan Tracker::track_once(const Scan& scan, int index) {
   tracked.motion = motion;
   tracked.mapped = placement.mapped;
   tracked.match = placement.found;
-  tracked.elevation_bias_deg = placement.elevation_bias_deg;
+  tracked.elevation_bias_deg = calibration_.elevation_bias_deg();
   tracked.prediction_m = moved.prediction_m;
   tracked.testimony = moved.testimony;
   tracked.T_odom_lidar =
@@ -170,8 +185,8 @@ TrackedScan Tracker::track_once(const Scan& scan, int index) {
 // The first scans also show how the sensor is mounted.
 FrontEnd Tracker::look_at(const Scan& scan, std::int64_t time_ns) {
   FrontEnd front_end =
-      run_front_end(scan, calibration_.sensor, calibration_.height, settings_, mapper_.empty(),
-                    check_);
+      run_front_end(scan, calibration_.sensor, calibration_.height, settings_,
+                    find_tilt_ && mapper_.empty(), check_);
   front_end.image.reference_ns += time_ns - scan.stamp_ns;
   calibration_.set_mounting(front_end.mounting);
   return front_end;
@@ -219,9 +234,6 @@ Tracker::Placement Tracker::place(const Features& features, const Motion& motion
     placement.mapped = index % settings_.mapping.every == 0;
     if (placement.mapped) {
       placement.found = placement.match = match_with_map(features, motion, step.seconds);
-      // Holds from the next scan on.
-      if (calibration_.correct_elevations(mapper_.elevation_bias(), mapper_.row_bias()))
-        placement.elevation_bias_deg = degrees(mapper_.elevation_bias());
       if (!placement.match.matched)
         placement.status = Status::odometry_only;
       else if (placement.match.localizability.degenerate())

@@ -71,11 +71,10 @@ class Tracker {
   // Where a scan is, and what says so.
   struct Placement {
     Status status = Status::ok;
-    bool mapped = false;              // the scan's turn to be matched and added
-    MapMatch found;                   // as the map gave it
-    MapMatch match;                   // as believed: without `found`, where that is refused
-    double elevation_bias_deg = 0.0;  // found so far
-    bool new_fragment = false;        // tracking was lost: the scan begins a new map
+    bool mapped = false;        // the scan's turn to be matched and added
+    MapMatch found;             // as the map gave it
+    MapMatch match;             // as believed: without `found`, where that is refused
+    bool new_fragment = false;  // tracking was lost: the scan begins a new map
 
     bool placed() const { return is_placed(status) || new_fragment; }
   };
@@ -125,6 +124,7 @@ class Tracker {
 
   TrackedScan repeat(const Scan& scan);
   TrackedScan track_once(const Scan& scan, int index);
+  TrackedScan restart(const FirstScan& first, const Scan& second, int index, const Vector6& twist);
   TrackedScan reprocess_first_scans(const FirstScan& first, const Scan& second,
                                     TrackedScan tracked);
   FrontEnd look_at(const Scan& scan, std::int64_t time_ns);
@@ -153,6 +153,7 @@ class Tracker {
   MotionState motion_;
   Progress progress_;
   std::optional<FirstScan> first_scan_;  // until its motion is known
+  bool find_tilt_ = true;  // false when the second scan has contradicted the first; of no use later
 };
 
 }  // namespace lego_loam_sc
