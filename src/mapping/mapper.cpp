@@ -24,6 +24,8 @@ constexpr double kMinSpacing = 0.125;
 constexpr double kPoseConvergence = 5e-4;
 // Where the sensor may be after an unknown motion: m/s, and deg from one scan to the next.
 constexpr double kMaxSpeed = 40.0;
+// m; farther away, after a gap, the grid would take seconds.
+constexpr double kMaxSearch = 8.0;
 constexpr double kMaxTurnDeg = 20.0;
 // Poses of the search that are refined.
 constexpr int kSearchStarts = 5;
@@ -217,7 +219,8 @@ MapMatch Mapper::search(const Features& features, const ScanGuess& guess,
     return agreement(map_, deskew(points, match.twist), match.T_map_lidar, settings_.voxel_size);
   };
   double best_score = best.matched ? score(best) : 0.0;
-  const PoseSearchRange range{kMaxSpeed * guess.seconds, radians(kMaxTurnDeg)};
+  const PoseSearchRange range{std::min(kMaxSpeed * guess.seconds, kMaxSearch),
+                              radians(kMaxTurnDeg)};
   for (const ScoredPose& start : search_poses(map_, points, T_map_previous, guess.seconds, range,
                                               settings_.voxel_size, kSearchStarts)) {
     const Pose T_previous_current = T_map_previous.inverse() * start.T_map_lidar;
