@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Tables of the campaign for docs/robustness.md."""
+
+import collections
+import math
+
+from judge import CRASHED, FINE, SAID, SILENT, WARNING_VERDICTS
+from markdown_page import table
+from systems import OURS
+from trial import PEER
+from troubles import TROUBLES
+
+MUST, GOAL = "must reached", "goal reached"
+
+
+class Result:
+    """One drive with our record and the peer's."""
+
+    def __init__(self, drive, ours, peer):
+        self.drive, self.ours, self.peer = drive, ours, peer
+
+    @property
+    def kind(self):
+        return self.ours["class"]
+
+    @property
+    def is_called_doubtful(self):
+        return self.kind == FINE and self.ours["verdict"] in WARNING_VERDICTS
+
+    @property
+    def peer_is_fine(self):
+        return self.peer["class"] == FINE
+
+
+def results(records, drives, made_with):
+    """Of the drives that both systems ran; ours with this program on this campaign."""
+    ours = {
+        r["drive"]: r for r in records if r["system"] == OURS and r["made_with"] == made_with
+    }
+    peers = {(r["drive"], r["scans"]): r for r in records if r["system"] == PEER}
+    found = []
+    for drive in drives:
+        mine = ours.get(drive.name)
+        peer = peers.get((drive.name, mine["scans"])) if mine else None
+        if peer:
+            found.append(Result(drive, mine, peer))
+    return found
+
+
+def groups(found):
+    """Rows of the table: a title and the results that belong to it."""
+    yield "**all**", found
+    keys = {
+        "trouble": lambda d: d.trouble_names or ("none",),
+        "troubles": lambda d: (str(len(d.trouble_names)),),
+        "world": lambda d: (d.simulation.world,),
+        "sensor": lambda d: (d.simulation.sensor,),
+        "start": lambda d: ("at speed" if d.start else "at rest",),
+        "scans used": lambda d: ("every one" if d.every == 1 else "every second",),
+    }
+    for kind, of_drive in keys.items():
+        parts = collections.defaultdict(list)
+        for result in found:
+            for name in of_drive(result.drive):
+                parts[name].append(result)
+        for name in sorted(parts):
+            yield f"{kind}: {name}", parts[name]
+
+
+def by_class(found):
+    header = ["", "drives", "fine", "said", "silent", "crashed", "fine but called doubtful"]
+    header += ["KISS-ICP fine"]
+    rows = []
+    for title, some in groups(found):
+        counts = [sum(r.kind == kind for r in some) for kind in (FINE, SAID, SILENT, CRASHED)]
+        doubtful = sum(r.is_called_doubtful for r in some)
+        peer = sum(r.peer_is_fine for r in some)
+        cells = [str(n) for n in (len(some), *counts, doubtful, peer)]
+        if counts[0] < peer:
+            cells[-1] = f"**{cells[-1]}**"
+        rows.append([title, *cells])
+    return table(header, rows)
+
+
+def goals(found):
+    """What must come out, as shares of all drives."""
+    count = max(len(found), 1)
+    fine, silent, doubtful, peer = (
+        sum(map(test, found)) / count
+        for test in (
+            lambda r: r.kind == FINE,
+            lambda r: r.kind in (SILENT, CRASHED),
+            lambda r: r.is_called_doubtful,
+            lambda r: r.peer_is_fine,
+        )
+    )
+    rows = [
+        ["wrong and nothing said", "≤ 1 %", "0", percent(silent), reached(silent, 0.01, 0.0)],
+        ["fine but called doubtful", "≤ 3 %", "≤ 1 %", percent(doubtful)]
+        + [reached(doubtful, 0.03, 0.01)],
+        ["fine", "≥ 90 %", "≥ 97 %", percent(fine), reached(-fine, -0.9, -0.97)],
+        ["KISS-ICP fine", "", "", percent(peer), ""],
+    ]
+    return table(["share of the drives", "must", "goal", "measured", ""], rows)
+
+
+def percent(share):
+    return f"{100 * share:.1f} %"
+
+
+def reached(value, must, goal):
+    return GOAL if value <= goal else MUST if value <= must else "**missed**"
+
+
+def silent(found, seed):
+    """The drives that went wrong without a word, with what repeats each."""
+    header = ["drive", "path (m)", "true (m)", "ATE (m)", "statuses", "KISS-ICP's ATE (m)"]
+    header += ["figures", "again"]
+    rows = []
+    for result in found:
+        if result.kind not in (SILENT, CRASHED):
+            continue
+        ours, drive = result.ours, result.drive
+        statuses = ", ".join(f"{count} {name}" for name, count in ours["statuses"].items())
+        if result.kind == CRASHED:
+            code = ours["code"]
+            statuses = "no end" if code is None else f"exit code {code}: {ours['message'][:80]}"
+        numbers = [ours["path"], ours["true_path"], ours["ate"]]
+        seeds = f" --seed {seed}" if seed != 1 else ""
+        rows.append(
+            [drive.name, *(metres(n) for n in numbers), statuses, metres(result.peer["ate"])]
+            + [figures(drive), f"`bench/robustness{seeds} --only ^{drive.number:03d} --keep look`"]
+        )
+    return table(header, rows) if rows else "None."
+
+
+def troubles():
+    """What each trouble is, in the words of its class."""
+    rows = [[f"`{name}`", " ".join(one.__doc__.split())] for name, one in TROUBLES.items()]
+    return table(["trouble", ""], rows)
+
+
+def metres(value):
+    return "–" if math.isnan(value) else f"{value:.2f}"
+
+
+def figures(drive):
+    words = [f"start {drive.start:.2f}", f"{drive.length} scans"]
+    words += [f"every {drive.every}."] if drive.every > 1 else []
+    if drive.simulation.is_tilted:
+        words.append(f"roll {drive.simulation.roll_deg}, pitch {drive.simulation.pitch_deg} deg")
+    for _, drawn in drive.troubles:
+        for key, value in drawn.items():
+            words.append(f"{len(value)} {key}" if isinstance(value, list) else f"{key} {value}")
+    return ", ".join(words)
+
+
+
+def summary(found):
+    counts = collections.Counter(r.kind for r in found)
+    doubtful = sum(r.is_called_doubtful for r in found)
+    words = ", ".join(f"{counts[kind]} {kind}" for kind in (FINE, SAID, SILENT, CRASHED))
+    peer = sum(r.peer_is_fine for r in found)
+    return f"{len(found)} drives: {words}; {doubtful} fine but called doubtful; {PEER} fine {peer}"
