@@ -20,12 +20,11 @@ PRESETS = (
     *("xt16", "xt32", "pandar40p", "pandar64"),
 )
 LENGTHS = (60, 150)  # scans of a drive
-SCANS = ((40, 320), (64, 220), (128, 150))  # beams up to, scans of a simulation
+SCANS = ((40_000, 320), (80_000, 240), (1_000_000, 160))  # rays of a scan up to, its scans
 TILT_EVERY = 10  # simulations
-EXCLUSIVE = (
-    ("times-ten-fold", "times-reversed", "times-zero", "times-ignored"),
-    ("max-range", "zero-misses"),
-)
+TIMES = ("times-ten-fold", "times-reversed", "times-zero", "times-ignored")
+EXCLUSIVE = (TIMES, ("max-range", "zero-misses"))
+WITHOUT_TIMES = ("kitti",)  # its scans are compensated
 
 
 @dataclasses.dataclass(frozen=True)
@@ -86,6 +85,10 @@ class Simulation:
     def is_tilted(self):
         return bool(self.roll_deg or self.pitch_deg)
 
+    def scans(self, rays):
+        """How many scans the whole simulation of a sensor with so many rays a turn would have."""
+        return next(scans for most, scans in SCANS if rays <= most)
+
     @property
     def sensor_argument(self):
         """What --sensor takes."""
@@ -122,12 +125,15 @@ class Drive:
     def random(self, *more):
         return np.random.default_rng([self.seed, self.number, *more])
 
-    def frames(self, stamps_ns):
-        """The scans to write, from the stamps of those that were simulated."""
-        spare = len(stamps_ns) - self.length * self.every
+    def sources(self, count):
+        """The scans of a simulation of `count` that are used, as indices."""
+        spare = count - self.length * self.every
         first = int(self.start * max(spare, 0))
-        chosen = range(first, len(stamps_ns), self.every)[: self.length]
-        frames = [Frame(k, int(stamps_ns[k])) for k in chosen]
+        return range(first, count, self.every)[: self.length]
+
+    def frames(self, count, stamps_ns):
+        """The scans to write; `stamps_ns` are those of the simulation, as far as it went."""
+        frames = [Frame(k, int(stamps_ns[k])) for k in self.sources(count)]
         for number, (name, figures) in enumerate(self.troubles):
             frames = TROUBLES[name].frames(frames, figures, self.random(1, number))
         return frames
@@ -176,16 +182,17 @@ def drive(seed, number, simulation):
     wanted = int(rng.choice([0, 1, 2], p=[0.25, 0.5, 0.25]))
     if simulation.is_tilted:
         wanted = min(wanted, 1)
-    names = drawn(wanted, rng)
+    names = drawn(wanted, TIMES if simulation.sensor in WITHOUT_TIMES else (), rng)
     troubles = tuple((name, TROUBLES[name].draw(rng)) for name in names)
     return Drive(number, simulation, round(start, 3), length, every, troubles, seed)
 
 
-def drawn(wanted, rng):
+def drawn(wanted, never, rng):
     """So many names of troubles in the order of TROUBLES, of each kind of EXCLUSIVE one at most."""
     names = []
     for index in rng.permutation(len(TROUBLES)):
         name = list(TROUBLES)[index]
-        if not any(name in kind and set(kind) & set(names) for kind in EXCLUSIVE):
+        taken = any(name in kind and set(kind) & set(names) for kind in EXCLUSIVE)
+        if name not in never and not taken:
             names.append(name)
     return sorted(names[:wanted], key=list(TROUBLES).index)

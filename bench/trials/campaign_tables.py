@@ -14,7 +14,7 @@ MUST, GOAL = "must reached", "goal reached"
 
 
 class Result:
-    """One drive with our record and the peer's."""
+    """One drive with our record and the peer's, None when it did not run."""
 
     def __init__(self, drive, ours, peer):
         self.drive, self.ours, self.peer = drive, ours, peer
@@ -29,11 +29,11 @@ class Result:
 
     @property
     def peer_is_fine(self):
-        return self.peer["class"] == FINE
+        return self.peer is not None and self.peer["class"] == FINE
 
 
 def results(records, drives, made_with):
-    """Of the drives that both systems ran; ours with this program on this campaign."""
+    """Of the drives that ours ran, with this program on this campaign."""
     ours = {
         r["drive"]: r for r in records if r["system"] == OURS and r["made_with"] == made_with
     }
@@ -41,9 +41,8 @@ def results(records, drives, made_with):
     found = []
     for drive in drives:
         mine = ours.get(drive.name)
-        peer = peers.get((drive.name, mine["scans"])) if mine else None
-        if peer:
-            found.append(Result(drive, mine, peer))
+        if mine:
+            found.append(Result(drive, mine, peers.get((drive.name, mine["scans"]))))
     return found
 
 
@@ -74,26 +73,26 @@ def by_class(found):
     for title, some in groups(found):
         counts = [sum(r.kind == kind for r in some) for kind in (FINE, SAID, SILENT, CRASHED)]
         doubtful = sum(r.is_called_doubtful for r in some)
-        peer = sum(r.peer_is_fine for r in some)
-        cells = [str(n) for n in (len(some), *counts, doubtful, peer)]
-        if counts[0] < peer:
-            cells[-1] = f"**{cells[-1]}**"
+        cells = [str(n) for n in (len(some), *counts, doubtful)]
+        cells.append(peers_fine(some, counts[0]))
         rows.append([title, *cells])
     return table(header, rows)
+
+
+def peers_fine(some, ours):
+    """On how many drives the peer is fine; of those that it ran, when it did not run all."""
+    fine, ran = sum(r.peer_is_fine for r in some), sum(r.peer is not None for r in some)
+    text = f"{fine}" if ran == len(some) else f"{fine} of {ran}"
+    return f"**{text}**" if fine > ours else text
 
 
 def goals(found):
     """What must come out, as shares of all drives."""
     count = max(len(found), 1)
-    fine, silent, doubtful, peer = (
-        sum(map(test, found)) / count
-        for test in (
-            lambda r: r.kind == FINE,
-            lambda r: r.kind in (SILENT, CRASHED),
-            lambda r: r.is_called_doubtful,
-            lambda r: r.peer_is_fine,
-        )
-    )
+    fine = sum(r.kind == FINE for r in found) / count
+    silent = sum(r.kind in (SILENT, CRASHED) for r in found) / count
+    doubtful = sum(r.is_called_doubtful for r in found) / count
+    peer = sum(r.peer_is_fine for r in found) / max(sum(r.peer is not None for r in found), 1)
     rows = [
         ["wrong and nothing said", "≤ 1 %", "0", percent(silent), reached(silent, 0.01, 0.0)],
         ["fine but called doubtful", "≤ 3 %", "≤ 1 %", percent(doubtful)]
@@ -127,9 +126,10 @@ def silent(found, seed):
             statuses = "no end" if code is None else f"exit code {code}: {ours['message'][:80]}"
         numbers = [ours["path"], ours["true_path"], ours["ate"]]
         seeds = f" --seed {seed}" if seed != 1 else ""
+        peer = result.peer["ate"] if result.peer else math.nan
         rows.append(
-            [drive.name, *(metres(n) for n in numbers), statuses, metres(result.peer["ate"])]
-            + [figures(drive), f"`bench/robustness{seeds} --only ^{drive.number:03d} --keep look`"]
+            [drive.name, *(metres(n) for n in numbers), statuses, metres(peer), figures(drive)]
+            + [f"`bench/robustness{seeds} --only ^{drive.number:03d} --keep look`"]
         )
     return table(header, rows) if rows else "None."
 

@@ -45,6 +45,9 @@ def parse():
     parser.add_argument(
         "--keep", type=pathlib.Path, help="keep the scans, the truth and the results in a folder"
     )
+    parser.add_argument(
+        "--without-peer", action="store_true", help="run KISS-ICP on no more drives than it has"
+    )
     parser.add_argument("--list", action="store_true", help="print the drives and run nothing")
     parser.add_argument("--document-only", action="store_true", help="run nothing")
     parser.add_argument(
@@ -64,20 +67,22 @@ def run(options, drives, store, made_with):
         for r in records
         if r["system"] == OURS
         and r["made_with"] == made_with
-        and (r["drive"], r["scans"]) in peers
+        and (options.without_peer or (r["drive"], r["scans"]) in peers)
     }
     wanted = collections.defaultdict(list)
     for drive in drives:
         if options.again or drive.name not in done:
             wanted[drive.simulation].append(drive)
-    outcomes.peer_python(trial.PEER)
+    if not options.without_peer:
+        outcomes.peer_python(trial.PEER)
     fork = multiprocessing.get_context("fork")
     with concurrent.futures.ProcessPoolExecutor(options.jobs, mp_context=fork) as pool:
         simulator = (options.simulator or program.PROGRAM).resolve()
         running = [
             pool.submit(
                 trial.run_all,
-                *(simulation, some, simulator, peers, store, made_with, FOLDER, options.keep),
+                *(simulation, some, simulator, peers, store, made_with),
+                *(not options.without_peer, FOLDER, options.keep),
             )
             for simulation, some in wanted.items()
         ]

@@ -15,7 +15,7 @@ import outcomes
 import program
 import scan_stream
 import sensor_facts
-from campaign import SCANS, SENSOR_FILES, WORLDS
+from campaign import SENSOR_FILES, WORLDS
 from systems import OURS
 from trajectory import Trajectory, read_tum
 from troubles import Moment
@@ -35,18 +35,22 @@ def definition():
 
 @dataclasses.dataclass(frozen=True)
 class Simulated:
+    """The first scans of a simulation that would have `count`, as many as its drives need."""
+
+    count: int
     stream: scan_stream.Stream
     truth: Trajectory
     compensated: bool
     sweep: float  # s
 
 
-def simulate(simulation, simulator, folder):
+def simulate(simulation, drives, simulator, folder):
     scans, truth, sensor = folder / "all.scans", folder / "all.tum", simulation.sensor_argument
-    beams = sensor_facts.beams(sensor)
-    count = next(scans for most, scans in SCANS if beams <= most)
+    lidar = sensor_facts.lidar(sensor)
+    count = simulation.scans(sensor_facts.beams(sensor) * lidar.columns)
+    needed = 1 + max(drive.sources(count)[-1] for drive in drives)
     command = [simulator, "simulate", *world(simulation, count, folder), "--seed"]
-    command += [simulation.seed, "--count", count, "--truth", truth, "-o", "-", "--sensor"]
+    command += [simulation.seed, "--count", needed, "--truth", truth, "-o", "-", "--sensor"]
     if simulation.is_tilted:
         tilted = folder / "tilted.yaml"
         tilted.write_text(
@@ -57,9 +61,8 @@ def simulate(simulation, simulator, folder):
         command.append(sensor)
     with scans.open("wb") as stream:
         subprocess.run([str(word) for word in command], stdout=stream, check=True)
-    lidar = sensor_facts.lidar(sensor)
     compensated = sensor_facts.is_compensated(sensor)
-    return Simulated(scan_stream.Stream(scans), read_tum(truth), compensated, lidar.period)
+    return Simulated(count, scan_stream.Stream(scans), read_tum(truth), compensated, lidar.period)
 
 
 def world(simulation, count, folder):
@@ -148,10 +151,10 @@ def figures(outcome, found, share, scans):
     }
 
 
-def run_drive(drive, simulated, have, store, made_with, folder):
-    """Runs what is missing on one drive and adds the records to the store."""
+def run_drive(drive, simulated, have, store, made_with, with_peer, folder):
+    """Runs ours on one drive, and the peer when it is wanted and not in `have`; keeps records."""
     scans = folder / f"{drive.name}.scans"
-    frames = drive.frames([round(1e9 * s) for s in simulated.truth.stamps])
+    frames = drive.frames(simulated.count, [round(1e9 * s) for s in simulated.truth.stamps])
     fingerprint = write_scans(drive, simulated, frames, scans)
     sensor = drive.simulation.sensor_argument
     head = {"drive": drive.name, "scans": fingerprint}
@@ -159,26 +162,26 @@ def run_drive(drive, simulated, have, store, made_with, folder):
     ours = judged_ours(outcome, frames, simulated.truth)
     store.add(head | {"system": OURS, "made_with": made_with} | ours)
     peer = have.get((drive.name, fingerprint))
-    if peer is None:
+    if peer is None and with_peer:
         deskewed = drive.deskew and not simulated.compensated
-        options = {"settings": {}, "deskew": deskewed, "kitti": False}
+        kitti = drive.simulation.sensor == "kitti"
+        options = {"settings": {}, "deskew": deskewed, "kitti": kitti}
         outcome = outcomes.run_peer(PEER, scans, folder / f"{drive.name}-{PEER}", options)
         peer = judged_peer(outcome, frames, simulated, deskewed)
         store.add(head | {"system": PEER} | peer)
-    print(
-        f"{drive.name}: {ours['class']} {ours['verdict'] or ours['said']}, ATE {ours['ate']:.3f} m"
-        f" of {ours['true_path']:.1f} m; {PEER} {peer['ate']:.3f} m",
-        flush=True,
-    )
+    said = ours["verdict"] or ours["said"]
+    line = f"{drive.name}: {ours['class']}{f' ({said})' if said else ''}, ATE {ours['ate']:.3f} m"
+    line += f" of {ours['true_path']:.1f} m"
+    print(line + (f"; {PEER} {peer['ate']:.3f} m" if peer else ""), flush=True)
 
 
-def run_all(simulation, drives, simulator, have, store, made_with, work, keep):
+def run_all(simulation, drives, simulator, have, store, made_with, with_peer, work, keep):
     """The drives of one simulation, in a folder that goes afterwards unless it is to be kept."""
     with tempfile.TemporaryDirectory(prefix="trial-", dir=work) as scratch:
         folder = pathlib.Path(scratch)
-        simulated = simulate(simulation, simulator, folder)
+        simulated = simulate(simulation, drives, simulator, folder)
         for drive in drives:
-            run_drive(drive, simulated, have, store, made_with, folder)
+            run_drive(drive, simulated, have, store, made_with, with_peer, folder)
             for path in folder.glob(f"{drive.name}*"):
                 if keep is not None:
                     shutil.move(path, keep / path.name)
