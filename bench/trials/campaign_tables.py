@@ -2,6 +2,7 @@
 """Tables of the campaign for docs/robustness.md."""
 
 import collections
+import json
 import math
 
 from judge import CRASHED, FINE, SAID, SILENT, WARNING_VERDICTS
@@ -132,6 +133,22 @@ def silent(found, seed):
             + [f"`bench/robustness{seeds} --only ^{drive.number:03d} --keep look`"]
         )
     return table(header, rows) if rows else "None."
+
+
+def doubted(found):
+    """The drives that were fine but called doubtful or failed, with the reasons."""
+    rows = [
+        [r.drive.name, metres(r.ours["ate"]), r.ours["verdict"], reasons(r.ours["reasons"])]
+        for r in found
+        if r.is_called_doubtful
+    ]
+    return table(["drive", "ATE (m)", "verdict", "reasons"], rows) if rows else "None."
+
+
+def reasons(stated):
+    """`verdict_reasons` of summary.json, texts or objects, for a cell."""
+    texts = [one if isinstance(one, str) else json.dumps(one) for one in stated]
+    return "; ".join(texts).replace("|", "/")[:300]
 
 
 def troubles():

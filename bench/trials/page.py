@@ -11,7 +11,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 PARTS = program.ROOT / "build/trials/parts"
 NOT_RUN = "not run yet"
 NAMES = (
-    *("campaign", "campaign_goals", "campaign_commit", "silent", "troubles"),
+    *("campaign", "campaign_goals", "campaign_commit", "silent", "doubted", "troubles"),
     *("recordings", "real_commit"),
 )
 

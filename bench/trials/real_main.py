@@ -20,6 +20,7 @@ import outcomes
 import page
 import program
 import recordings
+from campaign_tables import reasons
 from markdown_page import fixed, table
 from systems import OURS, TITLES
 
@@ -131,7 +132,7 @@ def measure(recording, kept):
 
 def cells(recording, system, run, best):
     statuses = ", ".join(f"{count} {name}" for name, count in run["statuses"].items())
-    verdict = run["verdict"]
+    verdict = ": ".join(filter(None, [run["verdict"], reasons(run["reasons"])]))
     if run["code"] != 0:
         statuses = "no end" if run["code"] is None else f"exit code {run['code']}"
     path = "" if np.isnan(run["true_path"]) else f" of {run['true_path']:.2f}"
@@ -174,7 +175,7 @@ def main():
         measured[name] = measure(recording, kept)
         store.write_text(json.dumps(kept, indent=1))
         print(tables({name: measured[name]}, known).split("\n", 2)[2], flush=True)
-    page.keep({"recordings": tables(measured, known), "real_commit": program.commit()})
+    page.keep({"recordings": tables(measured, known), "real_commit": program.identity()})
     page.write(options.document)
 
 

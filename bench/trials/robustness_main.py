@@ -112,8 +112,9 @@ def main():
         {
             "campaign": campaign_tables.by_class(found),
             "campaign_goals": campaign_tables.goals(found),
-            "campaign_commit": f"{program.commit()}, seed {options.seed}, {len(found)} drives",
+            "campaign_commit": f"{program.identity()}, seed {options.seed}, {len(found)} drives",
             "silent": campaign_tables.silent(found, options.seed),
+            "doubted": campaign_tables.doubted(found),
             "troubles": campaign_tables.troubles(),
         }
     )

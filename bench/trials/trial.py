@@ -184,10 +184,17 @@ def run_all(simulation, drives, simulator, have, store, made_with, with_peer, wo
             run_drive(drive, simulated, have, store, made_with, with_peer, folder)
             for path in folder.glob(f"{drive.name}*"):
                 if keep is not None:
+                    remove(keep / path.name)
                     shutil.move(path, keep / path.name)
-                elif path.is_dir():
-                    shutil.rmtree(path)
                 else:
-                    path.unlink()
+                    remove(path)
         if keep is not None:
             shutil.move(folder / "all.tum", keep / f"{simulation.name}.tum")
+
+
+def remove(path):
+    """A file, a folder, or nothing when there is none."""
+    if path.is_dir():
+        shutil.rmtree(path)
+    else:
+        path.unlink(missing_ok=True)
