@@ -315,22 +315,23 @@ def changed_times(scan, change):
 
 
 class NoiseScans(Trouble):
-    """Some scans in a row hold random ranges."""
+    """Some scans in a row hold random ranges; in one drive of ten all do, which has to be said."""
 
     def draw(self, rng):
-        return {"at": uniform(rng, 0.1, 0.8), "scans": int(rng.integers(1, 6))}
+        at, scans = uniform(rng, 0.1, 0.8), int(rng.integers(1, 6))
+        return {"all": bool(rng.random() < 0.1), "at": at, "scans": scans}
+
+    def frames(self, frames, figures, rng):
+        if figures["all"]:
+            return [dataclasses.replace(frame, noise=True) for frame in frames]
+        at = int(figures["at"] * len(frames))
+        end = at + figures["scans"]
+        noise = [dataclasses.replace(f, counts=False, noise=True) for f in frames[at:end]]
+        return frames[:at] + noise + frames[end:]
 
     def scan(self, scan, figures, moment, rng):
         noise = moment.frame.noise
         return with_ranges(scan, rng.uniform(2.0, 40.0, len(scan.points))) if noise else scan
-
-    def frames(self, frames, figures, rng):
-        at = int(figures["at"] * len(frames))
-        end = min(at + figures["scans"], len(frames))
-        return [
-            dataclasses.replace(f, counts=False, noise=True) if at <= k < end else f
-            for k, f in enumerate(frames)
-        ]
 
 
 class RangeNoise(Trouble):
