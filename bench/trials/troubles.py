@@ -315,11 +315,11 @@ def changed_times(scan, change):
 
 
 class NoiseScans(Trouble):
-    """Some scans in a row hold random ranges; in one drive of ten all do, which has to be said."""
+    """Some scans in a row hold random ranges; in one drive of five all do, which has to be said."""
 
     def draw(self, rng):
         at, scans = uniform(rng, 0.1, 0.8), int(rng.integers(1, 6))
-        return {"all": bool(rng.random() < 0.1), "at": at, "scans": scans}
+        return {"all": bool(rng.random() < 0.2), "at": at, "scans": scans}
 
     def frames(self, frames, figures, rng):
         if figures["all"]:
