@@ -9,7 +9,7 @@ from scipy.spatial import cKDTree
 RADIUS = 0.5  # m
 VOXEL = 0.1  # m
 NEIGHBOURS = 10  # fewest within the radius, the point itself included
-QUERIES = 100_000  # most points whose entropy is computed
+QUERIES = 50_000  # most points whose entropy is computed
 FLOOR = 0.001**2  # m^2, on each axis: a perfect plane has no volume
 CHUNK = 2000
 

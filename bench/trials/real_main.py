@@ -108,8 +108,9 @@ def figures(recording, outcome):
 
 
 def peer_figures(peer, recording, stream, folder, kept):
-    """Kept from an earlier time when scans and settings are the same."""
+    """Kept from an earlier time when scans, settings and the measure are the same."""
     digest = hashlib.blake2b(json.dumps(peer_options(peer, recording)).encode())
+    digest.update(pathlib.Path(entropy.__file__).read_bytes())
     with stream.open("rb") as file:
         digest.update(hashlib.file_digest(file, "blake2b").digest())
     key = f"{recording.name} {peer} {digest.hexdigest()[:16]}"
