@@ -30,12 +30,12 @@ def ensure(folder, requirements):
     return python
 
 
-def start(scripts, folder):
-    """Becomes `scripts`/main.py, in an environment with `scripts`/requirements.txt.
+def start(scripts, folder, main="main.py"):
+    """Becomes `main` of the folder `scripts`, in an environment with its requirements.txt.
 
     What lies beside this file can be imported there.
     """
     python = ensure(folder, (scripts / "requirements.txt").read_text())
     packages = next(folder.glob("lib/python*/site-packages"))
     (packages / "bench_common.pth").write_text(f"{COMMON}\n")
-    os.execv(python, [str(python), str(scripts / "main.py"), *sys.argv[1:]])
+    os.execv(python, [str(python), str(scripts / main), *sys.argv[1:]])

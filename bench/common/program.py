@@ -36,6 +36,12 @@ def commit():
     return result.stdout.strip() or "unknown"
 
 
+def identity():
+    """Of the program under test: the commit, and the hash when it is not of this build folder."""
+    own = PROGRAM.resolve() == (ROOT / "build/release/lego-loam-sc").resolve()
+    return commit() if own else f"unknown, {PROGRAM.name} {version()}"
+
+
 def evaluate(truth, estimate):
     """What `lego-loam-sc evaluate --json` says about one estimate."""
     return json.loads(call("evaluate", truth, estimate, "--json"))[0]

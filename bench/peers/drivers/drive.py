@@ -42,14 +42,21 @@ def write_tum(path, stamps, poses):
     np.savetxt(path, rows, fmt="%.9f")
 
 
+def finite(scan):
+    """Without the points that are none, as the peers' own readers hand a scan out."""
+    kept = np.isfinite(scan.points).all(axis=1)
+    times = scan.times[kept] if len(scan.times) else scan.times
+    return scans.Scan(scan.stamp, scan.points[kept], times)
+
+
 def main(peer, source, output, options):
     driver = importlib.import_module(f"with_{peer.replace('-', '_')}")
     odometry = driver.Odometry(options["settings"], options["threads"])
     stamps = []
     start = cpu_seconds()
-    for scan in scans.read(source):
+    for scan in map(finite, scans.read(source)):
         points = driver.kitti_correction(scan.points) if options["kitti"] else scan.points
-        swept = scan.times.max() if len(scan.times) else 0.0
+        swept = scan.times.max(initial=0.0)
         odometry.add(points, scan.times if options["deskew"] else scans.NONE)
         stamps.append(scan.stamp + driver.REFERENCE * swept)
     write_tum(output / "trajectory.tum", stamps, odometry.finish())
