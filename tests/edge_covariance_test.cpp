@@ -66,9 +66,9 @@ TEST(EdgeCovariance, OnlyTheDegenerateDirectionIsInflated) {
   const Eigen::Matrix3d R = rotation_from_rpy(0.1, -0.2, 2.0);
   Localizability l;
   l.translation_axes = rotation_from_rpy(0.0, 0.0, 0.7);
-  l.degenerate_translations = 1;
+  l.translation_certainty[0] = 0.0;
   l.rotation_axes = rotation_from_rpy(0.3, 0.0, 0.0);
-  l.degenerate_rotations = 1;
+  l.rotation_certainty[0] = 0.0;
   const Matrix6 change = odometry_covariance(some_covariance(1), R, l, settings) -
                          odometry_covariance(some_covariance(1), R, {}, settings);
   const double t = settings.degenerate_inflation * settings.odometry_sigma;

@@ -41,8 +41,8 @@ TEST(Localizability, TheComponentAlongDegenerateDirectionsIsAProjection) {
   Localizability l;
   l.translation_axes = rotation_from_rpy(0.3, -0.4, 1.0);
   l.rotation_axes = rotation_from_rpy(-1.0, 0.2, 0.5);
-  l.degenerate_translations = 2;
-  l.degenerate_rotations = 1;
+  l.translation_certainty.head<2>().setZero();
+  l.rotation_certainty[0] = 0.0;
   const Matrix6 projection = degenerate_projection(l, 1.0, 1.0);
   EXPECT_LT((projection * projection - projection).norm(), 1e-14);
   EXPECT_NEAR(projection.trace(), 3.0, 1e-14);

@@ -107,7 +107,7 @@ TEST(SlamFaults, OneRingAloneEndsNothing) {
   const FaultyRun faulty = run(with(drive(30, kSpeed), [](int k, Scan& scan) {
     if (k == 15) leave(scan, [&](std::size_t i) { return scan.ring[i] == 7; });
   }));
-  EXPECT_NE(faulty.reports[15].status, Status::ok);
+  EXPECT_LT(error_at(faulty, 15), 0.05);  // walls all round hold a single ring
   EXPECT_EQ(faulty.reports[29].status, Status::ok);
   EXPECT_LT(error_at(faulty, 29), 0.1);
 }

@@ -128,7 +128,8 @@ void expect_found_again(const LostDrive& drive, int from, int scans) {
   EXPECT_EQ(drive.count(Status::lost, 0), drive.count(Status::lost, from));
   EXPECT_EQ(drive.count(Status::lost, from + scans), 0);
   EXPECT_EQ(drive.slam.maps(), 1);
-  EXPECT_LT(drive.largest_error(from + scans), 0.2);
+  // The first sweep after a blind time is de-skewed with the speed from before it.
+  EXPECT_LT(drive.largest_error(from + scans), 0.25);
 }
 
 TEST(SlamLost, ABlindMinuteThenAKnownPlaceIsFoundAgain) {

@@ -85,12 +85,15 @@ LoopVerification judge(const Features& query, LocalMap& map, const Pose& pose, d
 
   const double scale = robust_scale(correspondences, pose, kKernel);
   const NormalEquations<6> equations = normal_equations(correspondences, pose, scale);
-  double sum = 0.0;
+  // The mean of a cloud of points is no surface to be off from.
+  double sum = 0.0, count = 0.0;
   for (const Correspondence& c : correspondences) {
+    if (c.kind == Correspondence::Kind::point) continue;
     const double d = distance(c, pose);
     sum += d * d;
+    ++count;
   }
-  result.rmse = std::sqrt(sum / static_cast<double>(correspondences.size()));
+  result.rmse = count > 0.0 ? std::sqrt(sum / count) : 0.0;
   result.covariance = (equations.H + Matrix6::Identity()).inverse();
 
   if (result.overlap < settings.min_overlap) {

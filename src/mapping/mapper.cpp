@@ -27,6 +27,9 @@ constexpr double kMaxSpeed = 40.0;
 // m; farther away, after a gap, the grid would take seconds.
 constexpr double kMaxSearch = 8.0;
 constexpr double kMaxTurnDeg = 20.0;
+// A pose far from the guess must agree so much better: the scores of two good matches differ by
+// chance.
+constexpr double kClearlyBetter = 1.05;
 // Poses of the search that are refined.
 constexpr int kSearchStarts = 5;
 // A direction with a smaller share of the constraints may be degenerate.
@@ -135,6 +138,7 @@ double weighted_rmse(const MapCorrespondences& correspondences, const Pose& pose
   double weights = 0.0;
   for (std::size_t i = 0; i < scales.size(); ++i) {
     for (const Correspondence& c : correspondences.set(i)) {
+      if (c.kind == Correspondence::Kind::point) continue;
       const double d = distance(c, pose);
       const double weight = robust_weight(c, d, scales[i]) / c.weight;
       sum += weight * d * d;
@@ -227,7 +231,7 @@ MapMatch Mapper::search(const Features& features, const ScanGuess& guess,
     const MapMatch match = align(
         points, {start.T_map_lidar, start.T_map_lidar, T_previous_current, guess.seconds, true});
     const double match_score = match.matched ? score(match) : 0.0;
-    if (match_score <= best_score) continue;
+    if (match_score <= kClearlyBetter * best_score) continue;
     best = match;
     best_score = match_score;
   }

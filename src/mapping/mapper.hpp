@@ -23,7 +23,7 @@ struct MapMatch {
   int matches = 0;                  ///< points with a correspondence
   int inliers = 0;                  ///< correspondences with a residual below 3 sigmas
   int iterations = 0;
-  double rmse = 0.0;  ///< m, of the residuals with their robust weights
+  double rmse = 0.0;  ///< m, of the residuals from planes and lines, with their robust weights
   /// Of the perturbation of core/pose.hpp; the prior's when not matched.
   Matrix6 covariance = Matrix6::Zero();
   Localizability localizability;

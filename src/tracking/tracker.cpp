@@ -52,8 +52,8 @@ TrackedScan Tracker::track(const Scan& scan) {
   const bool first = progress_.last_key_frame.number < 0;
   const std::uint64_t hash = hash_of(scan.points);
   if (!first && !scan.points.empty() && hash == progress_.last_scan.points_hash) return repeat(scan);
-  progress_.last_scan.points_hash = hash;
   TrackedScan tracked = track_once(scan, progress_.scans++);
+  if (is_placed(tracked.status)) progress_.last_scan.points_hash = hash;
   if (tracked.status == Status::out_of_order) return tracked;
   if (first) {
     first_scan_ = FirstScan{tracked.index, scan};
