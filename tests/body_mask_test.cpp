@@ -16,7 +16,9 @@ namespace {
 constexpr double kNoise = 0.01;
 constexpr double kCabWall = 2.2;  // m behind the sensor
 
-bool behind(const Eigen::Vector3f& p) { return p.x() < -0.5F * std::hypot(p.x(), p.y()); }
+bool behind(const Eigen::Vector3f& p) {
+  return p.x() < -0.5F * std::hypot(p.x(), p.y());
+}
 
 // A cab wall behind the sensor hides what is there.
 Scan with_cab(Scan scan, std::uint64_t seed) {
@@ -31,7 +33,7 @@ Scan with_cab(Scan scan, std::uint64_t seed) {
 }
 
 struct Marked {
-  std::size_t body = 0;   // of the points behind
+  std::size_t body = 0;  // of the points behind
   std::size_t behind = 0;
   std::size_t other = 0;  // marked, but not behind
 };

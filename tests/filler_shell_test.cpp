@@ -27,9 +27,9 @@ Scan with_fillers(const SensorModel& sensor, double x, double filler, std::uint6
   for (int row = 0; row < sensor.rows(); ++row) {
     for (int column = 0; column < sensor.columns; ++column) {
       if (seen[static_cast<std::size_t>(row) * sensor.columns + column]) continue;
-      scan.points.push_back((filler * beam(column_azimuth(sensor, column),
-                                           radians(sensor.elevation_deg[row])))
-                                .cast<float>());
+      scan.points.push_back(
+          (filler * beam(column_azimuth(sensor, column), radians(sensor.elevation_deg[row])))
+              .cast<float>());
       scan.intensity.push_back(0.0F);
       scan.ring.push_back(static_cast<std::uint16_t>(row));
     }

@@ -6,10 +6,10 @@ import pathlib
 import goals
 import tables
 from results import Compared
-from systems import OURS
 
 from machine import processor
 from markdown_page import filled
+from systems import OURS
 
 HERE = pathlib.Path(__file__).resolve().parent
 

@@ -3,9 +3,8 @@
 
 import math
 
-from systems import TITLES
-
 from markdown_page import table
+from systems import TITLES
 
 REACHED, ENOUGH, MISSED = "goal reached", "must reached", "**missed**"
 SIXTEEN, SIXTY_FOUR = (8.0, 4.0), (25.0, 12.0)  # ms of CPU per scan

@@ -11,9 +11,9 @@ import pathlib
 import document
 import runs
 from inputs import inputs
-from systems import PEERS, SYSTEMS
 
 from program import ROOT
+from systems import PEERS, SYSTEMS
 
 
 def parse():

@@ -12,11 +12,11 @@ import tempfile
 import measure
 import numpy as np
 import stages
-from systems import OURS, PEERS, options
 
 import environment
 import program
 import trajectory
+from systems import OURS, PEERS, options
 
 DRIVE = pathlib.Path(__file__).resolve().parent / "drivers/drive.py"
 RECORD = "run.json"

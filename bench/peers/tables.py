@@ -4,9 +4,9 @@
 import math
 
 from stages import STAGES
-from systems import OURS, PEERS, SYSTEMS, TITLES
 
 from markdown_page import fixed, table
+from systems import OURS, PEERS, SYSTEMS, TITLES
 
 
 def ratios(compared, value):

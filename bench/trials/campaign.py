@@ -9,7 +9,6 @@ import dataclasses
 import pathlib
 
 import numpy as np
-
 from troubles import TROUBLES, Frame
 
 SIMULATIONS = 40
@@ -168,9 +167,7 @@ def simulations(seed):
             roll, pitch = rng.uniform(-8, 8), rng.choice([-1, 1]) * rng.uniform(6, 20)
             tilt = (round(float(roll), 1), round(float(pitch), 1))
         sensor = sensors[number % len(sensors)]
-        made.append(
-            Simulation(number, worlds[number % len(worlds)], sensor, seed + number, *tilt)
-        )
+        made.append(Simulation(number, worlds[number % len(worlds)], sensor, seed + number, *tilt))
     return made
 
 

@@ -6,10 +6,11 @@ import json
 import math
 
 from judge import CRASHED, FINE, SAID, SILENT, WARNING_VERDICTS
-from markdown_page import table
-from systems import OURS
 from trial import PEER
 from troubles import TROUBLES
+
+from markdown_page import table
+from systems import OURS
 
 MUST, GOAL = "must reached", "goal reached"
 
@@ -35,9 +36,7 @@ class Result:
 
 def results(records, drives, made_with):
     """Of the drives that ours ran, with this program on this campaign."""
-    ours = {
-        r["drive"]: r for r in records if r["system"] == OURS and r["made_with"] == made_with
-    }
+    ours = {r["drive"]: r for r in records if r["system"] == OURS and r["made_with"] == made_with}
     peers = {(r["drive"], r["scans"]): r for r in records if r["system"] == PEER}
     found = []
     for drive in drives:
@@ -170,7 +169,6 @@ def figures(drive):
         for key, value in drawn.items():
             words.append(f"{len(value)} {key}" if isinstance(value, list) else f"{key} {value}")
     return ", ".join(words)
-
 
 
 def summary(found):

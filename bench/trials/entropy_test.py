@@ -4,9 +4,8 @@
 import math
 import unittest
 
-import numpy as np
-
 import entropy
+import numpy as np
 
 
 def wall(sigma, count=1000):
@@ -36,8 +35,7 @@ class MeanMapEntropy(unittest.TestCase):
         wrong = right.copy()
         wrong[:, 2, 3] = [0.0, 0.05, 0.1, 0.15, 0.2]
         crisp, smeared = (
-            entropy.mean_map_entropy(entropy.accumulated(scans, poses))
-            for poses in (right, wrong)
+            entropy.mean_map_entropy(entropy.accumulated(scans, poses)) for poses in (right, wrong)
         )
         self.assertGreater(smeared, crisp + 1.0)
 

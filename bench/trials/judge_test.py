@@ -4,9 +4,9 @@
 import math
 import unittest
 
+import judge
 import numpy as np
 
-import judge
 from trajectory import Trajectory
 
 

@@ -7,9 +7,9 @@ import json
 import pathlib
 
 import numpy as np
+import processes
 
 import environment
-import processes
 import program
 from systems import OURS, PEERS
 from trajectory import Trajectory, read_tum

@@ -12,15 +12,15 @@ import pathlib
 import re
 import tempfile
 
-import numpy as np
-
 import entropy
 import judge
+import numpy as np
 import outcomes
 import page
-import program
 import recordings
 from campaign_tables import reasons
+
+import program
 from markdown_page import fixed, table
 from systems import OURS, TITLES
 
@@ -70,7 +70,7 @@ def crispness(recording, outcome):
     """Mean map entropy of all scans that have a pose."""
     if not recording.scans or len(outcome.numbers) < 2:
         return np.nan
-    wanted = dict(zip(outcome.numbers.tolist(), outcome.trajectory.poses))
+    wanted = dict(zip(outcome.numbers.tolist(), outcome.trajectory.poses, strict=False))
     scans, poses = [], []
     for number, points in enumerate(recording.points()):
         if number in wanted:

@@ -111,7 +111,7 @@ def read_pcd(path):
             if not words:
                 raise ValueError(f"{path}: the header has no DATA")
             header[words[0]] = words[1:]
-        kinds = dict(zip("FUI", "fui"))
+        kinds = dict(zip("FUI", "fui", strict=False))
         names = [f"{name}{k}" for k, name in enumerate(header["FIELDS"])]
         types = [
             kinds[kind] + size for kind, size in zip(header["TYPE"], header["SIZE"], strict=True)
@@ -123,7 +123,9 @@ def read_pcd(path):
             return np.loadtxt(file, usecols=starts[where], ndmin=2)
         if header["DATA"] != ["binary"]:
             raise ValueError(f"{path}: DATA {' '.join(header['DATA'])} is not read")
-        fields = np.dtype([(n, "<" + t, (c,)) for n, t, c in zip(names, types, counts)])
+        fields = np.dtype(
+            [(n, "<" + t, (c,)) for n, t, c in zip(names, types, counts, strict=False)]
+        )
         rows = np.frombuffer(file.read(), fields, int(header["POINTS"][0]))
         return np.column_stack([rows[names[k]][:, 0] for k in where])
 

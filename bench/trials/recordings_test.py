@@ -6,7 +6,6 @@ import tempfile
 import unittest
 
 import numpy as np
-
 import recordings
 
 POINTS = np.array([[1.0, 2.0, 3.0], [-4.0, 5.0, -6.0]], dtype="<f4")
@@ -22,7 +21,7 @@ class Reading(unittest.TestCase):
 
     def test_points_of_a_pcd_lie_between_padding(self):
         rows = np.zeros(2, "<f4, (3,)u1, <f4, <f4, <u2, (2,)u1")
-        for field, axis in zip(("f0", "f2", "f3"), POINTS.T):
+        for field, axis in zip(("f0", "f2", "f3"), POINTS.T, strict=False):
             rows[field] = axis
         path = self.folder / "0.pcd"
         path.write_bytes((HEADER + "binary\n").encode() + rows.tobytes())

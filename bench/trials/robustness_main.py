@@ -17,9 +17,10 @@ import campaign
 import campaign_tables
 import outcomes
 import page
-import program
 import trial
 from results_store import Store
+
+import program
 from systems import OURS
 
 FOLDER = program.ROOT / "build/trials"

@@ -4,8 +4,9 @@
 import functools
 import re
 
-import program
 from troubles import Lidar
+
+import program
 
 
 @functools.cache

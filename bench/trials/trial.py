@@ -8,17 +8,16 @@ import shutil
 import subprocess
 import tempfile
 
-import numpy as np
-
 import judge
+import numpy as np
 import outcomes
-import program
-import scan_stream
 import sensor_facts
 from campaign import SENSOR_FILES, WORLDS
+from troubles import Moment
+
+import scan_stream
 from systems import OURS
 from trajectory import Trajectory, read_tum
-from troubles import Moment
 
 PEER = "kiss-icp"
 HERE = pathlib.Path(__file__).resolve().parent
@@ -53,9 +52,7 @@ def simulate(simulation, drives, simulator, folder):
     command += [simulation.seed, "--count", needed, "--truth", truth, "-o", "-", "--sensor"]
     if simulation.is_tilted:
         tilted = folder / "tilted.yaml"
-        tilted.write_text(
-            sensor_facts.tilted(sensor, simulation.roll_deg, simulation.pitch_deg)
-        )
+        tilted.write_text(sensor_facts.tilted(sensor, simulation.roll_deg, simulation.pitch_deg))
         command.append(tilted)
     else:
         command.append(sensor)

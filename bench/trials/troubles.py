@@ -249,7 +249,7 @@ class Dropped(Trouble):
 
     def frames(self, frames, figures, rng):
         kept = rng.random(len(frames)) >= figures["share"]
-        return [frame for frame, keep in zip(frames, kept) if keep]
+        return [frame for frame, keep in zip(frames, kept, strict=False) if keep]
 
 
 class Gap(Trouble):
@@ -272,7 +272,8 @@ class StampJitter(Trouble):
     def frames(self, frames, figures, rng):
         late = rng.uniform(0, 1e6 * figures["late_ms"], len(frames)).astype(int)
         return [
-            dataclasses.replace(f, stamp_ns=f.stamp_ns + int(n)) for f, n in zip(frames, late)
+            dataclasses.replace(f, stamp_ns=f.stamp_ns + int(n))
+            for f, n in zip(frames, late, strict=False)
         ]
 
 

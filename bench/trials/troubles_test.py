@@ -5,11 +5,11 @@ import pathlib
 import tempfile
 import unittest
 
-import numpy as np
-
 import campaign
-import scan_stream
+import numpy as np
 from troubles import TROUBLES, Frame, Lidar, Moment
+
+import scan_stream
 
 COLUMNS = 72
 FACTS = "motion_compensated: false\n"

@@ -57,7 +57,10 @@ def test_the_only_cloud_among_other_topics_is_taken_and_described(tmp_path, read
     assert "static transform base to lidar: x 1.250 y 0.000 z 0.500 m" in said
     assert "yaw 90.00 degrees" in said
     assert "/points: 5 messages at 10.0 Hz, frame lidar, 200 points, fields x float32" in said
-    assert "field time: seconds relative to the stamp of the scan; a sweep runs from 0.0 to 99.0" in said
+    assert (
+        "field time: seconds relative to the stamp of the scan; a sweep runs from 0.0 to 99.0"
+        in said
+    )
     assert read(tmp_path / outcome_name(kind), "--quiet").messages == []
 
 

@@ -98,7 +98,10 @@ def test_a_loop_is_drawn_as_the_truth_has_it_after_icp_and_as_guessed_before(run
         assert np.linalg.norm(error[:3, 3]) < 0.1
         assert np.trace(error[:3, :3]) > 1 + 2 * np.cos(np.radians(1.5))
         guessed = np.linalg.inv(before) @ after
-        assert np.trace(guessed[:3, :3]) > 1 + 2 * np.cos(np.radians(15.0))  # Scan Context guesses
+        # Scan Context guesses; what looks alike from both directions it may turn round, and ICP has
+        # then started from the pose graph.
+        angle = np.arccos(np.clip((np.trace(guessed[:3, :3]) - 1) / 2, -1, 1))
+        assert min(angle, np.pi - angle) < np.radians(15.0)
         if loop["detector"] == "radius":  # as the odometry has it
             assert np.linalg.norm(guessed[:3, 3]) < 0.2
         else:  # one on the other

@@ -14,12 +14,13 @@ constexpr double kLeastShare = 0.005;
 constexpr double kLongSweeps = 0.2;
 
 double share_of(std::size_t points, const ScanFindings& findings) {
-  return findings.points > 0
-             ? static_cast<double>(points) / static_cast<double>(findings.points)
-             : 0.0;
+  return findings.points > 0 ? static_cast<double>(points) / static_cast<double>(findings.points)
+                             : 0.0;
 }
 
-std::string percent(double share) { return to_fixed(100.0 * share, 1) + " %"; }
+std::string percent(double share) {
+  return to_fixed(100.0 * share, 1) + " %";
+}
 
 }  // namespace
 
@@ -39,8 +40,7 @@ std::vector<std::string> input_sentences(const Slam& slam) {
                         " m: they are the vehicle's own body and were left out; min_range of the "
                         "sensor beyond it leaves them out from the first scan on");
   if (found.time_factor != 1.0)
-    sentences.push_back("the times of the points were " +
-                        to_fixed(1.0 / found.time_factor, 0) +
+    sentences.push_back("the times of the points were " + to_fixed(1.0 / found.time_factor, 0) +
                         " times longer than a sweep can last and were divided by it; give the unit "
                         "as point_times in dataset.yaml, or correct it in the driver");
   else if (found.long_sweeps > kLongSweeps * found.sweeps)
@@ -60,7 +60,8 @@ nlohmann::ordered_json input_json(const Slam& slam) {
   const ScanFindings& found = slam.findings();
   const SweepCheck& check = slam.sweep_check();
   nlohmann::ordered_json json = {
-      {"fillers", {{"share", share_of(found.filler_points, found)}, {"range_m", found.filler_range}}},
+      {"fillers",
+       {{"share", share_of(found.filler_points, found)}, {"range_m", found.filler_range}}},
       {"body", {{"share", share_of(found.body_points, found)}, {"range_m", found.body_range}}},
       {"times",
        {{"fit", check.fits()},

@@ -35,7 +35,8 @@ const char* const kScansHeader =
     "scan,stamp,status,points,ground_points,segment_points,clusters,edges_sharp,planars_flat,"
     "edges_large,planars_large,odometry_edges,odometry_planars,odometry_iterations,map_points,"
     "map_matches,map_iterations,map_rmse_m,degenerate_translations,degenerate_rotations,"
-    "translation_strength,rotation_strength,elevation_bias_deg,agreeing,contradicting,prediction_m,stamp_jump_s,warnings,"
+    "translation_strength,rotation_strength,elevation_bias_deg,agreeing,contradicting,prediction_m,"
+    "stamp_jump_s,warnings,"
     "errors,piece,key_frame,corrected,projection_ms,segmentation_ms,features_ms,odometry_ms,"
     "mapping_ms,loops_ms,delay_ms,delay_level\n";
 
@@ -51,9 +52,9 @@ std::string scan_line(const ScanReport& r, const HealthLog::Line& health) {
        << r.map_points << r.map_matches << r.map_iterations << to_fixed(r.map_rmse, 4)
        << r.degenerate_translations << r.degenerate_rotations
        << to_fixed(r.least_translation_strength, 1) << to_fixed(r.least_rotation_strength, 1)
-       << to_fixed(r.elevation_bias_deg, 4) << r.agreeing << r.contradicting << to_fixed(r.prediction_m, 4)
-       << to_fixed(r.stamp_jump_s, 3) << health.warnings << health.errors << r.piece << r.key_frame
-       << (r.corrected ? 1 : 0);
+       << to_fixed(r.elevation_bias_deg, 4) << r.agreeing << r.contradicting
+       << to_fixed(r.prediction_m, 4) << to_fixed(r.stamp_jump_s, 3) << health.warnings
+       << health.errors << r.piece << r.key_frame << (r.corrected ? 1 : 0);
   for (const double milliseconds : r.milliseconds) line << to_fixed(milliseconds, 3);
   line << to_fixed(health.delay_ms, 3) << to_string(health.delay_level);
   return line.text();

@@ -156,8 +156,9 @@ RunSummary summarise(const Slam& slam, const Trajectory& trajectory, std::size_t
                 resources.peak_megabytes);
   std::string findings;
   for (const std::string& sentence : input_sentences(slam)) findings += sentence + "\n";
-  return {std::move(json), text + corrections_of(slam.calibration()) + notes_of(counts, slam.maps()) +
-                               health.text() + findings,
+  return {std::move(json),
+          text + corrections_of(slam.calibration()) + notes_of(counts, slam.maps()) +
+              health.text() + findings,
           describe(verdict)};
 }
 

@@ -5,8 +5,8 @@
 
 namespace lego_loam_sc {
 
-/// The outcome of a scan. A bad scan does not end the run: with `too_few_points` and `lost` the pose
-/// is the prediction; these, a repeated scan and one out of order have no other effect.
+/// The outcome of a scan. A bad scan does not end the run: with `too_few_points` and `lost` the
+/// pose is the prediction; these, a repeated scan and one out of order have no other effect.
 enum class Status {
   ok,
   degenerate,      ///< matched, but at least one direction comes from the prediction alone

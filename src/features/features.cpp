@@ -183,8 +183,8 @@ Features extract(const RangeImage& image, const Segmentation& segmentation,
   return features;
 }
 
-// All points above the ground except smooth surfaces, thinned along each row: along a smooth surface
-// its points are arbitrary, and their pattern moves with the sensor.
+// All points above the ground except smooth surfaces, thinned along each row: along a smooth
+// surface its points are arbitrary, and their pattern moves with the sensor.
 std::vector<FeaturePoint> scattered_points(const RangeImage& image,
                                            const Segmentation& segmentation,
                                            const std::vector<std::uint8_t>& smooth,
@@ -231,9 +231,8 @@ Features extract_features(const RangeImage& image, const Segmentation& segmentat
   std::vector<std::uint8_t> smooth;
   Features features = extract_edges_and_planars(image, segmentation, sensor, settings, smooth);
   if (settings.scattered > 0)
-    features.scattered =
-        subsample(scattered_points(image, segmentation, smooth, settings.planar_spacing),
-                  settings.scattered);
+    features.scattered = subsample(
+        scattered_points(image, segmentation, smooth, settings.planar_spacing), settings.scattered);
   return features;
 }
 

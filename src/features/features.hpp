@@ -32,7 +32,8 @@ struct FeaturePoint {
 /// The feature sets of paper 2.3 (2). The small sets hold the sharpest edges and the flattest
 /// points, F_e and F_p; the large sets, with a double-struck F in the paper, contain them. What
 /// stands on the ground but is neither a clear edge nor smooth (vegetation, poles, people, small
-/// structures) often holds more of the pose than the edges do: `scattered`. All sets are in ascending order of row and column.
+/// structures) often holds more of the pose than the edges do: `scattered`. All sets are in
+/// ascending order of row and column.
 struct Features {
   std::vector<FeaturePoint> edges_sharp;    ///< F_e
   std::vector<FeaturePoint> planars_flat;   ///< F_p

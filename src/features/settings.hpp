@@ -26,9 +26,10 @@ struct FeatureSettings {
   LEGO_LOAM_SC_SETTING(int, scattered, 100000, 0, 1000000,
                        "rough points above the ground that are kept beside the edges; of more, "
                        "evenly spread ones; 0 = none");
-  LEGO_LOAM_SC_SETTING(double, planar_spacing, 0.2, 0.0, 10.0,
-                       "m; distance along a row between points of the large planar set, and between "
-                       "scattered points");
+  LEGO_LOAM_SC_SETTING(
+      double, planar_spacing, 0.2, 0.0, 10.0,
+      "m; distance along a row between points of the large planar set, and between "
+      "scattered points");
   LEGO_LOAM_SC_SETTING(int, suppressed_neighbours, 5, 0, 20,
                        "points on each side of a pick that cannot be picked any more");
   LEGO_LOAM_SC_SETTING(int, max_column_gap, 2, 1, 100,

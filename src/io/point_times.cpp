@@ -14,10 +14,10 @@
 namespace lego_loam_sc {
 namespace {
 
-constexpr double kMinSweep = 0.02;   // s
-constexpr double kMaxSweep = 0.5;    // s
-constexpr double kSameClock = 1.0;   // s
-constexpr double kMaxStamp = 4.6e9;  // s; differences fit into 64 bits of nanoseconds
+constexpr double kMinSweep = 0.02;      // s
+constexpr double kMaxSweep = 0.5;       // s
+constexpr double kSameClock = 1.0;      // s
+constexpr double kMaxStamp = 4.6e9;     // s; differences fit into 64 bits of nanoseconds
 constexpr std::size_t kSamples = 1000;  // times that the bulk of a scan is measured with, about
 constexpr double kStrayShare = 0.05;    // maximum, at either end and in all
 

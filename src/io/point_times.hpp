@@ -36,8 +36,8 @@ struct PointTimes {
 /// they lie within one second of it; otherwise the earliest time is assumed to be at the stamp, and
 /// replaces the stamp when that is uncertain. The offset of NaN is 0. Constant times count as no
 /// times. Unsigned times that wrap below zero are read as the negative ones that they stand for. Up
-/// to 5 % of the times may be stray: they decide nothing, and their points are to be left out. When no unit fits, throws InputError, which names `file`, the values and the setting to
-/// give.
+/// to 5 % of the times may be stray: they decide nothing, and their points are to be left out. When
+/// no unit fits, throws InputError, which names `file`, the values and the setting to give.
 PointTimes interpret_point_times(std::span<const double> times, NumberType type,
                                  const StampHint& hint, const std::string& file);
 

@@ -59,9 +59,8 @@ class LocalMap {
   /// Correspondences of the points of these sets with the surface on the finest level that has one,
   /// from `first_level` (0 = finest) on, when it is within `max_distance` (m). `cache` holds the
   /// surfaces found at a previous pose, or is empty; it is updated.
-  MapCorrespondences match(const Features& features, const Pose& T_map_points,
-                           double max_distance, double range_noise, int first_level,
-                           MatchedSurfaces& cache);
+  MapCorrespondences match(const Features& features, const Pose& T_map_points, double max_distance,
+                           double range_noise, int first_level, MatchedSurfaces& cache);
 
   /// Whether the finest voxel of `point` (map frame) holds points.
   bool occupied(const Eigen::Vector3d& point) const;

@@ -27,7 +27,7 @@ float elevation(const Eigen::Vector3f& p) {
 }
 
 int column_of(const Eigen::Vector3f& p) {
-  const float turns = fast_atan2(p.y(), p.x()) / (2.0f * std::numbers::pi_v<float>) + 0.5f;
+  const float turns = fast_atan2(p.y(), p.x()) / (2.0f * std::numbers::pi_v<float>)+0.5f;
   return std::clamp(static_cast<int>(turns * kColumns), 0, kColumns - 1);
 }
 

@@ -18,8 +18,8 @@ class RangeView {
     free,     ///< it was seen through
   };
 
-  /// `points`: de-skewed, in the frame of the view, m. `row_spacing` (rad) of the sensor: directions
-  /// are told apart no finer.
+  /// `points`: de-skewed, in the frame of the view, m. `row_spacing` (rad) of the sensor:
+  /// directions are told apart no finer.
   RangeView(std::span<const Eigen::Vector3f> points, double row_spacing);
 
   /// `point` in the frame of the view.

@@ -248,9 +248,8 @@ bool Mapper::converge(const Features& points, const PosePrior& prior,
     if (!has_enough_matches(r.correspondences.all, points, settings_)) return false;
     r.scales = robust_scales(r.correspondences, r.pose);
     Sweep sweep{r.pose};
-    const LevenbergMarquardtResult result = solve(r.correspondences, r.scales, prior,
-                                                  velocity_prior, r.twist, settings_.iterations,
-                                                  sweep);
+    const LevenbergMarquardtResult result = solve(
+        r.correspondences, r.scales, prior, velocity_prior, r.twist, settings_.iterations, sweep);
     r.pose = sweep.T_map_lidar;
     const Vector6 change = velocity_change_in_lidar_axes(sweep);
     r.twist += change;

@@ -7,8 +7,8 @@
 #include "core/pose.hpp"
 #include "features/features.hpp"
 #include "map/local_map.hpp"
-#include "mapping/sweep_check.hpp"
 #include "mapping/settings.hpp"
+#include "mapping/sweep_check.hpp"
 #include "mapping/sweep_priors.hpp"
 #include "registration/localizability.hpp"
 
@@ -85,8 +85,7 @@ class Mapper {
   Features points_to_match(const Features& features);
   bool converge(const Features& points, const PosePrior& prior, const VelocityPrior& velocity_prior,
                 Registration& registration);
-  Localizability analyse(const Features& points, const Registration& registration,
-                         double seconds);
+  Localizability analyse(const Features& points, const Registration& registration, double seconds);
   MapMatch align(const Features& points, const ScanGuess& guess);
   void adapt_spacing(int points);
 

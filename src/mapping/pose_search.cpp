@@ -27,12 +27,12 @@ bool apart(const Pose& a, const Pose& b, double step) {
 
 }  // namespace
 
-double agreement(LocalMap& map, const Features& points, const Pose& T_map_lidar,
-                 double tolerance) {
+double agreement(LocalMap& map, const Features& points, const Pose& T_map_lidar, double tolerance) {
   MatchedSurfaces cache;
   const double max_distance = 4.0 * tolerance;
   double sum = 0.0;
-  for (const Correspondence& c : map.match(points, T_map_lidar, max_distance, kAnyNoise, 0, cache).all) {
+  for (const Correspondence& c :
+       map.match(points, T_map_lidar, max_distance, kAnyNoise, 0, cache).all) {
     const double d = distance(c, T_map_lidar) / tolerance;
     sum += 1.0 / (1.0 + d * d);
   }

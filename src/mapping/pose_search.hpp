@@ -25,10 +25,11 @@ struct ScoredPose {
 /// from its surface counts 1 / (1 + (d / tolerance)^2), a point without a surface counts 0.
 double agreement(LocalMap& map, const Features& points, const Pose& T_map_lidar, double tolerance);
 
-/// Where a scan may be when its motion is unknown: a grid of poses round `T_map_previous`, where the
-/// previous scan was `seconds` ago, each with the points de-skewed by the motion that leads there.
-/// Returns at most `count` poses that are apart from each other, best first. The grid is as fine as
-/// a registration that starts from its best pose needs; `voxel_size` (m) is that of the map.
+/// Where a scan may be when its motion is unknown: a grid of poses round `T_map_previous`, where
+/// the previous scan was `seconds` ago, each with the points de-skewed by the motion that leads
+/// there. Returns at most `count` poses that are apart from each other, best first. The grid is as
+/// fine as a registration that starts from its best pose needs; `voxel_size` (m) is that of the
+/// map.
 std::vector<ScoredPose> search_poses(LocalMap& map, const Features& points,
                                      const Pose& T_map_previous, double seconds,
                                      const PoseSearchRange& range, double voxel_size, int count);

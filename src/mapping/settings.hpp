@@ -46,9 +46,10 @@ struct MappingSettings {
   LEGO_LOAM_SC_SETTING(double, min_significance, 4.0, 0.0, 1000.0,
                        "sigmas; a direction in which the scan fits the map less clearly is "
                        "degenerate and keeps the prediction");
-  LEGO_LOAM_SC_SETTING(bool, elevation_bias, true,
-                       "correct an error that the elevation angles of all beams have in common once "
-                       "the ground of the drive has proved it");
+  LEGO_LOAM_SC_SETTING(
+      bool, elevation_bias, true,
+      "correct an error that the elevation angles of all beams have in common once "
+      "the ground of the drive has proved it");
 };
 
 }  // namespace lego_loam_sc

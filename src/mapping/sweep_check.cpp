@@ -61,7 +61,9 @@ void SweepCheck::add(std::span<const Correspondence> correspondences, const Pose
   squares_ += weight * factor * factor;
 }
 
-double SweepCheck::factor() const { return weights_ > 0.0 ? sum_ / weights_ : 1.0; }
+double SweepCheck::factor() const {
+  return weights_ > 0.0 ? sum_ / weights_ : 1.0;
+}
 
 double SweepCheck::standard_error() const {
   if (scans_ < 2) return std::numeric_limits<double>::infinity();
@@ -70,8 +72,7 @@ double SweepCheck::standard_error() const {
 }
 
 bool SweepCheck::fits() const {
-  return scans_ < kLeastScans || factor() > kFits ||
-         factor() + kSigmas * standard_error() > 1.0;
+  return scans_ < kLeastScans || factor() > kFits || factor() + kSigmas * standard_error() > 1.0;
 }
 
 }  // namespace lego_loam_sc

@@ -19,8 +19,8 @@ struct Localizability {
   Eigen::Vector3d rotation = Eigen::Vector3d::Zero();
   Eigen::Matrix3d translation_axes = Eigen::Matrix3d::Identity();  ///< columns, target frame,
   Eigen::Matrix3d rotation_axes = Eigen::Matrix3d::Identity();     ///< weakest first
-  /// Of each axis, the share of what the correspondences say along it that is to be believed: 0 of a
-  /// degenerate one, 1 where there is no doubt.
+  /// Of each axis, the share of what the correspondences say along it that is to be believed: 0 of
+  /// a degenerate one, 1 where there is no doubt.
   /// @{
   Eigen::Vector3d translation_certainty = Eigen::Vector3d::Ones();
   Eigen::Vector3d rotation_certainty = Eigen::Vector3d::Ones();

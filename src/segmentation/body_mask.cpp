@@ -236,7 +236,9 @@ void BodyMask::vote(const std::vector<float>& range, const Motion& motion, int w
   }
 }
 
-bool BodyMask::is_masked(std::size_t pixel) const { return votes_[pixel] >= kLeastVotes; }
+bool BodyMask::is_masked(std::size_t pixel) const {
+  return votes_[pixel] >= kLeastVotes;
+}
 
 float BodyMask::tolerance_at(int row, int column, float range) const {
   const std::size_t begin = static_cast<std::size_t>(row) * columns_;
@@ -267,8 +269,8 @@ std::size_t BodyMask::mark(const RangeImage& image, std::vector<std::uint8_t>& r
     for (std::uint32_t i = image.row_begin[row]; i < image.row_begin[row + 1]; ++i) {
       const int column = image.column[i];
       const std::size_t pixel = static_cast<std::size_t>(row) * columns_ + column;
-      if (!is_masked(pixel) || std::abs(image.range[i] - body_[pixel]) >=
-                                   tolerance_at(row, column, body_[pixel]))
+      if (!is_masked(pixel) ||
+          std::abs(image.range[i] - body_[pixel]) >= tolerance_at(row, column, body_[pixel]))
         continue;
       ++count;
       remove[i] = 1;

@@ -13,10 +13,10 @@ namespace lego_loam_sc {
 
 /// Finds the returns that move with the sensor: those of the vehicle and of what is mounted on it.
 /// A pixel that keeps its range while the sensor moves sees either the body or a surface along
-/// which it moves, a road or the wall of a tunnel. The normal of the surface tells them apart: where
-/// the motion has a part along it a fixed surface would have changed its range. The motion is taken
-/// from the pixels that did change (range flow, Spies, Jaehne and Barron 2002), so that a body that
-/// fills most of the image cannot hide it, as it does from registration.
+/// which it moves, a road or the wall of a tunnel. The normal of the surface tells them apart:
+/// where the motion has a part along it a fixed surface would have changed its range. The motion is
+/// taken from the pixels that did change (range flow, Spies, Jaehne and Barron 2002), so that a
+/// body that fills most of the image cannot hide it, as it does from registration.
 class BodyMask {
  public:
   explicit BodyMask(const SensorModel& sensor);
@@ -43,8 +43,8 @@ class BodyMask {
   // What a pixel says of the motion m = (v, w) since the reference: row.m = change but for sigma.
   struct Flow {
     Vector6 row;
-    double change = 0.0;   // m, along the normal
-    double sigma = 0.0;    // m, of `change` from noise
+    double change = 0.0;  // m, along the normal
+    double sigma = 0.0;   // m, of `change` from noise
   };
   enum class Kind { neutral, world, body, other };
 
@@ -66,16 +66,16 @@ class BodyMask {
 
   int rows_;
   int columns_;
-  float noise_;                              // m, one sigma
-  std::vector<double> elevation_;            // rad, by row
-  std::vector<double> azimuth_;              // rad, by column
-  std::vector<float> reference_;             // m, range of each pixel in an earlier scan; 0 = none
-  std::vector<float> body_;                  // m, range of the body in each pixel
-  std::vector<std::int8_t> votes_;           // for the body, of each pixel
+  float noise_;                     // m, one sigma
+  std::vector<double> elevation_;   // rad, by row
+  std::vector<double> azimuth_;     // rad, by column
+  std::vector<float> reference_;    // m, range of each pixel in an earlier scan; 0 = none
+  std::vector<float> body_;         // m, range of the body in each pixel
+  std::vector<std::int8_t> votes_;  // for the body, of each pixel
   std::size_t size_ = 0;
-  int age_ = 0;                              // scans since the reference
-  int compared_ = 0;                         // scans in motion
-  int paused_ = 0;                           // scans not looked at since the last comparison
+  int age_ = 0;       // scans since the reference
+  int compared_ = 0;  // scans in motion
+  int paused_ = 0;    // scans not looked at since the last comparison
 };
 
 }  // namespace lego_loam_sc

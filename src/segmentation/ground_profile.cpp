@@ -13,7 +13,7 @@ namespace {
 constexpr float kHalfWidth = 1.2f;  // m
 constexpr float kNearest = 3.0f;    // m
 constexpr float kFarthest = 25.0f;
-constexpr int kMinPoints = 4;          // in a row
+constexpr int kMinPoints = 4;           // in a row
 constexpr double kMaxRoughness = 0.04;  // m, standard deviation in a row
 // From row to row outwards the ground rises by no more than this slope and offset (m); what does
 // is a kerb or a vehicle, and hides the ground behind it.
@@ -23,9 +23,9 @@ constexpr double kMinGap = 0.3;  // m from row to row; rows in between add nothi
 constexpr std::size_t kMinRows = 6;
 constexpr std::size_t kMinRowsOfSide = 2;
 
-constexpr double kSigma = 0.015;      // m, of a row's height
-constexpr double kCurvature = 5e-4;   // 1/m, one sigma of a road's own
-constexpr double kKernel = 2.0;       // scale of Cauchy's kernel, sigmas
+constexpr double kSigma = 0.015;     // m, of a row's height
+constexpr double kCurvature = 5e-4;  // 1/m, one sigma of a road's own
+constexpr double kKernel = 2.0;      // scale of Cauchy's kernel, sigmas
 constexpr int kReweightings = 5;
 
 struct RowHeight {

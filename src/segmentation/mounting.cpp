@@ -170,9 +170,8 @@ std::vector<Patch> patches_near(const RangeImage& image) {
 
 std::size_t count_upright(const std::vector<Patch>& patches, const Vector3d& up) {
   const double most = std::sin(radians(kUprightDeg));
-  return std::count_if(patches.begin(), patches.end(), [&](const Patch& patch) {
-    return std::abs(patch.normal.dot(up)) < most;
-  });
+  return std::count_if(patches.begin(), patches.end(),
+                       [&](const Patch& patch) { return std::abs(patch.normal.dot(up)) < most; });
 }
 
 bool lies_in(const std::vector<Patch>& patches, const Plane& plane) {
@@ -207,8 +206,7 @@ std::optional<Plane> find_tilted_ground(const RangeImage& image) {
   if (support_of(planes.above) > kAboveSupport * support_of(best)) best = planes.above;
   if (support_of(best) < kMinSupport * static_cast<double>(points.size())) return std::nullopt;
   best = refined(refined(best, points), points);
-  if (best.up.z() > std::cos(radians(kMinTiltDeg)) || !is_ground(best, image))
-    return std::nullopt;
+  if (best.up.z() > std::cos(radians(kMinTiltDeg)) || !is_ground(best, image)) return std::nullopt;
   return best;
 }
 

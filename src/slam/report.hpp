@@ -37,7 +37,7 @@ struct ScanReport {
   double elevation_bias_deg = 0.0;  ///< correction of the elevation angles, from the next scan on
 
   int agreeing = 0, contradicting = 0;  ///< points, see Testimony
-  double prediction_m = 0.0;  ///< from the predicted to the found position
+  double prediction_m = 0.0;            ///< from the predicted to the found position
 
   int piece = 0;       ///< of the drive, from 0; see MapFragments
   int key_frame = -1;  ///< its number when the scan is one

@@ -6,8 +6,8 @@
 namespace lego_loam_sc {
 namespace {
 
-// At a right pose up to a tenth of the witnesses contradict, which are on what moves; at a wrong one
-// a quarter and more.
+// At a right pose up to a tenth of the witnesses contradict, which are on what moves; at a wrong
+// one a quarter and more.
 constexpr double kContradiction = 0.15;
 // Scans in a row that cast doubt. So long the prediction bridges a gap: at the accelerations of
 // vehicles it is off by a few decimetres after half a second.

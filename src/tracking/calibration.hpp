@@ -44,8 +44,8 @@ class Calibration {
   /// See core/state_archive.hpp.
   template <class Archive>
   void state(Archive& archive) {
-    archive(sensor.mount_roll_deg, sensor.mount_pitch_deg, sensor.elevation_correction_deg,
-            height, elevation_bias_, next_observation_);
+    archive(sensor.mount_roll_deg, sensor.mount_pitch_deg, sensor.elevation_correction_deg, height,
+            elevation_bias_, next_observation_);
   }
 
  private:

@@ -35,8 +35,8 @@ struct FrontEnd {
 
 /// Projects and segments a scan and extracts its features. Estimates what is not known of the
 /// mounting: with `find_tilt` the tilt, when `sensor` states none, and with `height` 0 the height
-/// of the sensor above the ground (m), which stays 0 when no ground is seen. `check` knows the scans
-/// before.
+/// of the sensor above the ground (m), which stays 0 when no ground is seen. `check` knows the
+/// scans before.
 FrontEnd run_front_end(const Scan& scan, const SensorModel& sensor, double height,
                        const FrontEndSettings& settings, bool find_tilt, ScanCheck& check);
 

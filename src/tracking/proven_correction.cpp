@@ -8,10 +8,10 @@ namespace lego_loam_sc {
 namespace {
 
 constexpr int kBlock = 10;  // measurements; those that follow each other see the same ground
-constexpr double kMinBlocks = 3.0;   // before the first trial
+constexpr double kMinBlocks = 3.0;  // before the first trial
 constexpr double kMinTrials = 6.0;
-constexpr double kProof = 3.0;       // sigmas of the mean gain to apply a correction
-constexpr double kDisproof = 1.0;    // and below which it is taken back
+constexpr double kProof = 3.0;     // sigmas of the mean gain to apply a correction
+constexpr double kDisproof = 1.0;  // and below which it is taken back
 
 }  // namespace
 

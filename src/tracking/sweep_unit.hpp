@@ -38,7 +38,7 @@ class SweepUnit {
   double period_;
   double factor_;
   std::optional<std::int64_t> stamp_ns_;  // of the last scan
-  int contradictions_ = 0;  // scans in a row that ask for another factor
+  int contradictions_ = 0;                // scans in a row that ask for another factor
   int too_long_ = 0;
   int compared_ = 0;
 };

@@ -51,7 +51,8 @@ Tracker::Tracker(const SensorModel& sensor, const TrackerSettings& settings,
 TrackedScan Tracker::track(const Scan& scan) {
   const bool first = progress_.last_key_frame.number < 0;
   const std::uint64_t hash = hash_of(scan.points);
-  if (!first && !scan.points.empty() && hash == progress_.last_scan.points_hash) return repeat(scan);
+  if (!first && !scan.points.empty() && hash == progress_.last_scan.points_hash)
+    return repeat(scan);
   TrackedScan tracked = track_once(scan, progress_.scans++);
   if (is_placed(tracked.status)) progress_.last_scan.points_hash = hash;
   if (tracked.status == Status::out_of_order) return tracked;
@@ -184,9 +185,8 @@ TrackedScan Tracker::track_once(const Scan& scan, int index) {
 
 // The first scans also show how the sensor is mounted.
 FrontEnd Tracker::look_at(const Scan& scan, std::int64_t time_ns) {
-  FrontEnd front_end =
-      run_front_end(scan, calibration_.sensor, calibration_.height, settings_,
-                    find_tilt_ && mapper_.empty(), check_);
+  FrontEnd front_end = run_front_end(scan, calibration_.sensor, calibration_.height, settings_,
+                                     find_tilt_ && mapper_.empty(), check_);
   front_end.image.reference_ns += time_ns - scan.stamp_ns;
   calibration_.set_mounting(front_end.mounting);
   return front_end;

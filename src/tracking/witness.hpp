@@ -22,8 +22,8 @@ struct Testimony {
 
 /// Checks every pose with points that did not serve to find it: a few hundred of a scan, taken by a
 /// fixed rule from all its points. The match is judged by distances from surfaces; this judges by
-/// the free space that the rays of the last key frames have crossed, so that nothing that moves with
-/// the sensor and no choice of features deceives both.
+/// the free space that the rays of the last key frames have crossed, so that nothing that moves
+/// with the sensor and no choice of features deceives both.
 class Witness {
  public:
   explicit Witness(double row_spacing) : row_spacing_(row_spacing) {}
