@@ -160,8 +160,8 @@ def _with_times(
                     scan.points = np.where(times.stray[:, None], np.float32(np.nan), scan.points)
                     if not stray_noted:
                         note(
-                            f"the scan at {raw.stamp_ns} ns: {np.count_nonzero(times.stray)} points "
-                            "are left out, their times are far outside of the sweep; so are those "
+                            f"the scan at {raw.stamp_ns} ns: {np.count_nonzero(times.stray)} "
+                            "points are left out, their times are far outside of the sweep; so are those "
                             "of further scans"
                         )
                     stray_noted = True
