@@ -12,6 +12,7 @@ struct MapPoint {
   float intensity = 0.0f;      ///< in the sensor's own unit
   std::int32_t key_frame = 0;  ///< index
 
+  /// Bit by bit.
   bool operator==(const MapPoint&) const = default;
 };
 

@@ -21,6 +21,7 @@ class KeyFrames {
   /// Adds the next key frame.
   void add(const KeyFrame& key_frame);
 
+  /// Removes everything.
   void clear();
 
   /// Number of key frames.

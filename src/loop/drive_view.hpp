@@ -13,6 +13,7 @@ struct DriveView {
   const MapFragments& fragments;
   const PoseGraph& graph;
 
+  /// The last key frame.
   int newest() const { return static_cast<int>(key_frames.size()) - 1; }
   double travelled() const { return key_frames.travelled(key_frames.size() - 1); }  ///< m
   /// Whether a loop would join two maps, whose relative pose is unknown until then.

@@ -21,6 +21,7 @@ int count_eligible(const DriveView& drive, const LoopSettings& settings);
 /// independently of each other.
 class LoopSearch {
  public:
+  /// `detector` may be empty.
   LoopSearch(const LoopSettings& settings, LoopDetector detector);
 
   /// Candidates for the newest key frame, which `context` describes, among the first `eligible`.

@@ -15,6 +15,7 @@ namespace lego_loam_sc {
 /// and takes about a millisecond for 100,000 key frames.
 class ScanContextIndex {
  public:
+  /// Without places.
   explicit ScanContextIndex(const ScanContextSettings& settings);
 
   /// Describes a key frame; in ascending order, not necessarily all.

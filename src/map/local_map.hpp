@@ -19,6 +19,7 @@ constexpr int kMaxLevels = 6;
 /// Cache of the surfaces that the points of one scan were matched with: while the pose converges,
 /// most points stay in their blocks. Valid for the same points, first level and state of the map.
 struct MatchedSurfaces {
+  /// Of one point.
   struct Entry {
     int level = -1;                             ///< the last one searched
     std::array<VoxelKey, kMaxLevels> blocks{};  ///< on each searched level
@@ -32,6 +33,7 @@ struct MapCorrespondences {
   std::vector<Correspondence> all;
   std::array<std::size_t, 3> end{};  ///< of each set in `all`
 
+  /// Those of one set: 0 planar points, 1 edges, 2 scattered points.
   std::span<const Correspondence> set(std::size_t i) const {
     const std::size_t begin = i == 0 ? 0 : end[i - 1];
     return std::span(all).subspan(begin, end[i] - begin);
@@ -65,8 +67,11 @@ class LocalMap {
   /// Whether the finest voxel of `point` (map frame) holds points.
   bool occupied(const Eigen::Vector3d& point) const;
 
+  /// Removes voxels farther than `radius` (m) from `center`.
   void remove_beyond(const Eigen::Vector3d& center, double radius);
+  /// Removes everything.
   void clear();
+  /// Number of voxels on the coarsest level, of all sets.
   std::size_t size() const;
 
   /// See core/state_archive.hpp.

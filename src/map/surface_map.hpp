@@ -13,6 +13,7 @@ namespace lego_loam_sc {
 
 /// The plane or line fitted to the points of a block, or their mean.
 struct Surface {
+  /// What was fitted.
   enum class Kind : std::uint8_t { none, plane, line, point };
 
   Kind kind = Kind::none;
@@ -22,6 +23,7 @@ struct Surface {
   double range = 0.0;     ///< m, mean horizontal range at which its points were measured
 };
 
+/// Of a map of surfaces.
 struct SurfaceMapSettings {
   Surface::Kind kind = Surface::Kind::plane;  ///< planes or lines only; point: what fits best
   double voxel_size = 0.5;                    ///< m
@@ -41,6 +43,7 @@ constexpr VoxelKey kNoBlock = pack_cell(-kMaxCell, -kMaxCell, -kMaxCell);
 /// block has grown enough, which is checked less often the more points it has.
 class SurfaceMap {
  public:
+  /// An empty map.
   explicit SurfaceMap(const SurfaceMapSettings& settings);
 
   /// Inserts points (map frame, m) with the horizontal ranges (m) at which they were measured; 0
@@ -58,6 +61,7 @@ class SurfaceMap {
   /// The table exceeds the CPU caches: before many surfaces are read, prefetch their table slots,
   /// then their blocks.
   void prefetch(VoxelKey block) const { blocks_.prefetch(block); }
+  /// See prefetch.
   void prefetch_value(VoxelKey block) const { blocks_.prefetch_value(block); }
 
   /// Whether the voxel of `point` holds points.
@@ -66,7 +70,9 @@ class SurfaceMap {
   /// Removes voxels farther than `radius` (m) from `center`.
   void remove_beyond(const Eigen::Vector3d& center, double radius);
 
+  /// Removes everything.
   void clear();
+  /// Number of voxels.
   std::size_t size() const { return voxels_.size(); }
 
   /// See core/state_archive.hpp.

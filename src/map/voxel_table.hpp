@@ -62,8 +62,11 @@ inline std::optional<VoxelKey> key_of(const Eigen::Vector3d& scaled) {
 template <class Value>
 class VoxelTable {
  public:
+  /// Number of entries.
   std::size_t size() const { return values_.size(); }
+  /// In the order of their insertion.
   const std::vector<VoxelKey>& keys() const { return keys_; }
+  /// In the order of the keys.
   const std::vector<Value>& values() const { return values_; }
 
   /// Reserves memory for `count` values.
@@ -123,6 +126,7 @@ class VoxelTable {
     rebuild(slots_.size());
   }
 
+  /// Removes everything.
   void clear() {
     keys_.clear();
     values_.clear();

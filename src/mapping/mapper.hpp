@@ -63,7 +63,9 @@ class Mapper {
   /// standing sensor would add only its beam pattern. Removes what lies beyond the map's radius.
   void add_scan(const Features& deskewed, const Pose& T_map_lidar);
 
+  /// Forgets the map.
   void clear();
+  /// Whether the map holds nothing.
   bool empty() const { return map_.size() == 0; }
 
   /// See core/state_archive.hpp.

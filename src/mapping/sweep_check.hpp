@@ -28,6 +28,7 @@ class SweepCheck {
   double factor() const;
   double standard_error() const;
   /// @}
+  /// Scans that took part.
   int scans() const { return scans_; }
 
   /// See core/state_archive.hpp.

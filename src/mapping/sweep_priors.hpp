@@ -23,6 +23,7 @@ class PosePrior {
   /// Fixes the degenerate directions to the guess.
   void fix_degenerate(const Localizability& localizability);
 
+  /// Adds the cost of a deviation at this pose and its derivatives.
   void add_to(NormalEquations<12>& equations, const Pose& at) const;
 
  private:

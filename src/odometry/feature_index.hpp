@@ -18,6 +18,7 @@ class FeatureIndex {
   FeatureIndex(FeatureIndex&&) noexcept;
   FeatureIndex& operator=(FeatureIndex&&) noexcept;
 
+  /// As given.
   const std::vector<FeaturePoint>& points() const;
 
   /// Index of the point nearest to `query` within `max_distance` (m), or -1.

@@ -39,6 +39,7 @@ class Odometry {
   /// Makes `deskewed` the target of the next scan.
   void set_previous(const Features& deskewed);
 
+  /// Whether there is a scan to match with.
   bool has_previous() const { return previous_.has_value(); }
 
   /// See core/state_archive.hpp.

@@ -14,6 +14,7 @@ namespace lego_loam_sc {
 
 /// A point of the source cloud and the plane, line or point of the target that it should lie on.
 struct Correspondence {
+  /// What the point should lie on.
   enum class Kind { plane, line, point };
 
   Kind kind = Kind::plane;

@@ -19,6 +19,7 @@ struct NormalEquations {
 /// A step below this ends an optimisation: 0.1 mm and 0.1 mrad.
 constexpr double kStepConvergence = 1e-4;
 
+/// How a minimisation went.
 struct LevenbergMarquardtResult {
   int iterations = 0;
   double step = 0.0;  ///< largest component of the sum of the accepted steps

@@ -28,9 +28,11 @@ struct Localizability {
   int degenerate_translations = 0;  ///< number of axes with a certainty of 0
   int degenerate_rotations = 0;
 
+  /// Whether anything along an axis is not to be believed.
   bool uncertain() const {
     return translation_certainty.minCoeff() < 1.0 || rotation_certainty.minCoeff() < 1.0;
   }
+  /// Whether any axis is.
   bool degenerate() const { return degenerate_translations + degenerate_rotations > 0; }
 };
 

@@ -19,6 +19,7 @@ namespace lego_loam_sc {
 /// body that fills most of the image cannot hide it, as it does from registration.
 class BodyMask {
  public:
+  /// Knows no body yet.
   explicit BodyMask(const SensorModel& sensor);
 
   /// Compares a scan with an earlier one. `image` has all returns, the masked ones as well.

@@ -16,6 +16,7 @@ namespace lego_loam_sc {
 /// alone.
 class FillerShell {
  public:
+  /// Knows no fillers yet.
   explicit FillerShell(const SensorModel& sensor);
 
   /// Looks for fillers in the next scan. What some scans have shown is known from then on, where

@@ -35,7 +35,9 @@ class BackEnd {
   Result add(const TrackedKeyFrame& key_frame);
 
   const KeyFrames& key_frames() const { return *key_frames_; }  ///< in the order of time
+  /// Key frames, odometry and loops.
   const PoseGraph& graph() const { return graph_; }
+  /// What belongs together.
   const MapFragments& fragments() const { return fragments_; }
 
   /// See core/state_archive.hpp.

@@ -11,6 +11,7 @@ namespace lego_loam_sc {
 /// The sensor as its model states it, and with what the scans have shown.
 class Calibration {
  public:
+  /// As the model states it.
   explicit Calibration(const SensorModel& model)
       : nominal(model), sensor(model), height(model.height) {}
 

@@ -14,6 +14,7 @@ class ProvenCorrection {
   /// `floor`: a smaller correction is never applied.
   explicit ProvenCorrection(double floor) : floor_(floor) {}
 
+  /// The next measurement.
   void add(double measurement);
 
   /// The correction in force; 0 when none has proved itself.

@@ -35,6 +35,7 @@ struct ScanFindings {
 /// times.
 class ScanCheck {
  public:
+  /// Knows nothing of the recording yet.
   explicit ScanCheck(const SensorModel& sensor)
       : filler_(sensor), body_(sensor), sweep_(sensor.period) {}
 
@@ -44,6 +45,7 @@ class ScanCheck {
   /// Puts another projection of that scan right.
   void correct(RangeImage& image) const;
 
+  /// So far.
   const ScanFindings& findings() const { return findings_; }
 
   /// Whether something was learnt that scans before should have been handled by.

@@ -15,17 +15,20 @@ constexpr int kStages = 6;
 /// stage's entry.
 class StageTimer {
  public:
+  /// Adds to these.
   explicit StageTimer(std::array<double, kStages>& milliseconds) : milliseconds_(milliseconds) {}
   ~StageTimer() { stop(); }
   StageTimer(const StageTimer&) = delete;
   StageTimer& operator=(const StageTimer&) = delete;
 
+  /// Ends the stage before and begins this one.
   void start(Stage stage) {
     stop();
     stage_ = stage;
     begin_ = Clock::now();
   }
 
+  /// Ends the stage.
   void stop() {
     if (!stage_) return;
     const std::chrono::duration<double, std::milli> passed = Clock::now() - begin_;

@@ -10,6 +10,7 @@ namespace lego_loam_sc {
 /// one; after a gap, or when odometry fails, only the map does.
 class TrackingMonitor {
  public:
+  /// The place is known.
   explicit TrackingMonitor(const TrackingSettings& settings) : settings_(settings) {}
 
   /// Before a scan: the clock has jumped by `jump_s`, the last scan that was matched is `seconds`
@@ -23,6 +24,7 @@ class TrackingMonitor {
   /// hold it.
   bool should_start_new_map() const;
 
+  /// The place is known again.
   void clear() { *this = TrackingMonitor(settings_); }
 
   /// See core/state_archive.hpp.

@@ -26,6 +26,7 @@ struct Testimony {
 /// with the sensor and no choice of features deceives both.
 class Witness {
  public:
+  /// `row_spacing` of the sensor, rad.
   explicit Witness(double row_spacing) : row_spacing_(row_spacing) {}
 
   /// Looks at a scan: `points` are de-skewed, in its LiDAR frame, at `T_map_lidar`.
@@ -37,6 +38,7 @@ class Witness {
   /// The key frames have moved with the pose graph.
   void correct(std::span<const Pose> T_map_key);
 
+  /// Forgets all views.
   void clear() { views_.clear(); }
 
   /// See core/state_archive.hpp.

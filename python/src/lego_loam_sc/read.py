@@ -161,8 +161,8 @@ def _with_times(
                     if not stray_noted:
                         note(
                             f"the scan at {raw.stamp_ns} ns: {np.count_nonzero(times.stray)} "
-                            "points are left out, their times are far outside of the sweep; so are those "
-                            "of further scans"
+                            "points are left out, their times are far outside of the sweep; so "
+                            "are those of further scans"
                         )
                     stray_noted = True
         except InputError as error:
