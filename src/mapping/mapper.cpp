@@ -298,7 +298,9 @@ MapMatch Mapper::align(const Features& points, const ScanGuess& guess) {
   const VelocityPrior velocity_prior(guess.T_previous_current * guess.T_map_lidar.inverse(),
                                      guess.seconds, settings_.acceleration,
                                      radians(settings_.angular_acceleration_deg));
-  Registration r{guess.T_map_lidar, velocity_prior.mean(guess.T_map_lidar)};
+  Registration r;
+  r.pose = guess.T_map_lidar;
+  r.twist = velocity_prior.mean(guess.T_map_lidar);
   const bool converged = converge(points, prior, velocity_prior, r);
   match.matches = static_cast<int>(r.correspondences.all.size());
   match.iterations = r.iterations;
