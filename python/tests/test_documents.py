@@ -24,7 +24,7 @@ ELSEWHERE = {
     r"scripts/build\b|cmake --preset release &&": "scripts/test does",
     r"cmake --preset release -D|build/release/bench|scripts/(bench|lint)": "compiles for minutes",
     r"bench/(paper|peers)/run": "takes hours",
-    r"bench/(robustness|real)": "takes most of an hour, on recordings that are not in the repository",
+    r"bench/(robustness|real)": "takes most of an hour, on recordings that are elsewhere",
     r"pip install": "scripts/setup does for the readers, scripts/bindings for the rest",
     r"pipx run": "downloads its tools",
 }
