@@ -29,6 +29,7 @@
 #include "registration/deskew.hpp"
 #include "segmentation/range_image.hpp"
 #include "segmentation/segmentation.hpp"
+#include "slam/settings.hpp"
 
 namespace lego_loam_sc {
 namespace {
